@@ -1,0 +1,115 @@
+/// @file What one detection returns: poses, regions, the distribution behind them, counts and
+/// times.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+/// How a detection ended.
+enum class DetectionStatus
+{
+  kOk,              ///< At least one reliable pose.
+  kNoPickablePose,  ///< Points, but no reliable pose.
+  kRoiEmpty,        ///< No measured point inside the region of interest.
+  kTimeLimit,       ///< The time limit ended the search; the poses are those found until then.
+  kBadCloud,        ///< The cloud cannot be worked on; the message says why.
+};
+
+/// Why a pose or a region is not reliable. The numbers are those of MismatchRegion.msg.
+enum class UnreliableReason : std::uint8_t
+{
+  kSpread = 0,    ///< Its cluster of hypotheses is too large: a mismatching region.
+  kSlippage = 1,  ///< The fit can slide.
+  kLowScore = 2,  ///< The cloud confirms too little of it.
+  kOverlap = 3,   ///< It shares space with a better pose.
+  kNone = 255,    ///< Reliable.
+};
+
+/// `SPREAD`, `SLIPPAGE`, `LOW_SCORE`, `OVERLAP`; empty for kNone.
+const char* toString(UnreliableReason reason);
+
+/// A vote peak of one reference point.
+struct PoseHypothesis
+{
+  Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();  ///< Of T_cloud_model.
+  Eigen::Vector3f center =
+      Eigen::Vector3f::Zero();  ///< The part's centre in the cloud's frame [m].
+  float votes = 0;              ///< Weighted votes, in units of one full vote.
+  std::uint32_t model = 0;      ///< Index of the model in the call.
+  std::int32_t cluster = -1;    ///< Index into clusters of the result; -1: noise.
+};
+
+/// A box that fits a set of points along their principal axes.
+struct OrientedBox
+{
+  Eigen::Isometry3d T_cloud_box =
+      Eigen::Isometry3d::Identity();               ///< Centre and axes (right-handed) [m].
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< Side lengths, longest first [m].
+};
+
+/// A cluster of hypotheses.
+struct HypothesisCluster
+{
+  std::uint32_t model = 0;
+  OrientedBox box;  ///< Of the centres.
+  std::size_t hypotheses = 0;
+  bool mismatching = false;  ///< The box's sides add up to more than max_spread_rel diameters.
+};
+
+/// A pose with what the cloud says of it.
+struct DetectedPose
+{
+  std::uint32_t model = 0;  ///< Index of the model in the call.
+  Eigen::Isometry3d T_cloud_model =
+      Eigen::Isometry3d::Identity();  ///< The mesh's frame in the cloud's [m].
+  double score = 0;  ///< Share of the surface the camera should see that the cloud confirms. [0, 1]
+  double votes = 0;  ///< Summed votes of the pose's group of hypotheses.
+  double visible_fraction =
+      0;  ///< Of the surface a free part would show, the share not hidden by others.
+  double rms_error_m = 0;  ///< Of the confirmed points, along their normals [m].
+  bool reliable = false;
+  UnreliableReason reason = UnreliableReason::kNone;  ///< kNone if and only if reliable.
+  std::int32_t cluster = -1;  ///< The cluster it came from; -1 under greedy clustering.
+};
+
+/// Where poses cannot be told apart, or why one was turned down; drawn in red.
+struct MismatchRegion
+{
+  std::uint32_t model = 0;
+  UnreliableReason reason = UnreliableReason::kSpread;
+  OrientedBox box;  ///< Spread: of the hypotheses' centres; otherwise of the part at best_pose.
+  Eigen::Isometry3d T_cloud_best =
+      Eigen::Isometry3d::Identity();  ///< Its best pose, T_cloud_model [m].
+  double score = 0;
+  std::size_t hypotheses = 0;
+  std::string detail;  ///< One sentence with the figures.
+};
+
+/// Seconds of one stage.
+struct StageTime
+{
+  std::string name;
+  double seconds = 0;
+};
+
+struct DetectionResult
+{
+  DetectionStatus status = DetectionStatus::kNoPickablePose;
+  std::string message;                  ///< One sentence a person can act on.
+  std::vector<DetectedPose> poses;      ///< Reliable ones first; best first in both parts.
+  std::vector<MismatchRegion> regions;  ///< Best score first.
+  std::vector<PoseHypothesis>
+      distribution;  ///< The probable pose distribution: all high-vote hypotheses.
+  std::vector<HypothesisCluster> clusters;
+  std::vector<Eigen::Vector3f> scene_points;  ///< The sampled scene of the first model [m].
+  std::size_t roi_points = 0;                 ///< Measured points in the region of interest.
+  std::vector<StageTime> stages;              ///< In order of execution.
+  double seconds = 0;                         ///< Whole detection.
+};
+}  // namespace ppf_bin_picking

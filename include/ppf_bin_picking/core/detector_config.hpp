@@ -1,0 +1,125 @@
+/// @file Every tunable of the detector, its default and its rule. config/detector.yaml repeats the
+/// defaults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+/// How the pose hypotheses are gathered.
+enum class Clustering
+{
+  kDbscan,  ///< DBSCAN over the parts' centres, then greedy grouping inside each cluster.
+  kGreedy,  ///< Greedy grouping over all hypotheses, as in Drost 2010; no mismatching regions.
+};
+
+/// What decides the content of a trained model. A model and a detector must agree on all of it.
+struct ModelParameters
+{
+  double step_rel =
+      0.05;  ///< Distance step and sampling distance, relative to the diameter. In [0.01, 0.2].
+  int n_angle = 30;  ///< Angle steps in a full turn: angle step = 2 pi / n_angle. In [8, 120].
+
+  bool operator==(const ModelParameters& other) const
+  {
+    return step_rel == other.step_rel && n_angle == other.n_angle;
+  }
+};
+
+/// Everything the detector can be tuned with. `_rel` is relative to the part's diameter, `_share` a
+/// share in [0, 1], `_px` pixels of the working image, `_rad` radians, `_s` seconds.
+struct DetectorConfig
+{
+  // Model and sampling (training again after a change)
+  ModelParameters model;
+
+  // Scene
+  int max_points = 5000000;        ///< A larger cloud is refused. >= 1.
+  bool use_cloud_normals = false;  ///< Take the cloud's own normals instead of computing them.
+  double pixels_per_diameter =
+      100;                   ///< The image is averaged down to about this resolution. >= 20.
+  int normal_radius_px = 2;  ///< Half window of the plane fits in the image. In [1, 10].
+
+  // Voting
+  double reference_share =
+      0.2;              ///< Share of the scene points that serve as reference points. In (0, 1].
+  double lambda = 0.0;  ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). In [0, 1].
+  double v_min = 0.1;   ///< Smallest weight of a vote. In (0, 1].
+  int peaks_per_reference = 3;  ///< Peaks kept of each reference point's accumulator. In [1, 10].
+  double peak_ratio = 0.9;      ///< Further peaks reach this share of the best. In (0, 1].
+
+  // Clustering
+  Clustering clustering = Clustering::kDbscan;  ///< `dbscan` or `greedy`.
+  double min_votes_rel =
+      0.2;               ///< High-vote gate, relative to the most votes of a hypothesis. In [0, 1].
+  double eps_rel = 0.0;  ///< DBSCAN radius. 0: from the sampling step. >= 0.
+  int minpts = 0;        ///< DBSCAN core size, the point included. 0: from the reference share.
+  double group_distance_rel = 0.1;  ///< Poses nearer than this group. > 0.
+  double group_angle_rad = 0.35;    ///< Poses turned by less than this group. In (0, pi].
+  int poses_per_cluster =
+      0;  ///< Poses of each cluster that are verified. 0: all. 1: the paper's mode.
+
+  // Mismatching regions
+  bool mismatch_test = true;    ///< Mark poses of mismatching regions as unreliable.
+  double max_spread_rel = 1.0;  ///< Largest sum of a cluster's box sides. > 0.
+
+  // Verification, refinement and selection
+  int max_candidates = 300;      ///< Poses that are refined and verified at most. >= 1.
+  int icp_iterations = 12;       ///< Steps of point-to-plane ICP. In [0, 100].
+  double depth_gate_rel = 0.02;  ///< A surface confirms a pose within this distance. > 0.
+  double normal_gate_rad = 0.6;  ///< ... and within this turn of the normal. In (0, pi/2].
+  double min_score = 0.6;        ///< Poses scoring less are not reliable. In [0, 1].
+  double min_visible_share =
+      0.2;  ///< Poses showing less of their surface are not reliable. In [0, 1].
+
+  // Running
+  int threads = 0;          ///< 0: one per core. >= 0.
+  double time_limit_s = 0;  ///< After this time the detection ends with what it has. 0: none.
+
+  /// One sentence per broken rule; empty means usable.
+  std::vector<std::string> problems() const;
+};
+
+/// Calls visitor(name, field) for every field, in the order of the struct. The names are those of
+/// YAML files and ROS parameters; fields are double, int, bool or Clustering. Readers, writers and
+/// checks of configurations are visitors, so that a new field is named here alone.
+template <class Config, class Visitor>
+void visitFields(Config&& config, Visitor&& visit)
+{
+  visit("step_rel", config.model.step_rel);
+  visit("n_angle", config.model.n_angle);
+  visit("max_points", config.max_points);
+  visit("use_cloud_normals", config.use_cloud_normals);
+  visit("pixels_per_diameter", config.pixels_per_diameter);
+  visit("normal_radius_px", config.normal_radius_px);
+  visit("reference_share", config.reference_share);
+  visit("lambda", config.lambda);
+  visit("v_min", config.v_min);
+  visit("peaks_per_reference", config.peaks_per_reference);
+  visit("peak_ratio", config.peak_ratio);
+  visit("clustering", config.clustering);
+  visit("min_votes_rel", config.min_votes_rel);
+  visit("eps_rel", config.eps_rel);
+  visit("minpts", config.minpts);
+  visit("group_distance_rel", config.group_distance_rel);
+  visit("group_angle_rad", config.group_angle_rad);
+  visit("poses_per_cluster", config.poses_per_cluster);
+  visit("mismatch_test", config.mismatch_test);
+  visit("max_spread_rel", config.max_spread_rel);
+  visit("max_candidates", config.max_candidates);
+  visit("icp_iterations", config.icp_iterations);
+  visit("depth_gate_rel", config.depth_gate_rel);
+  visit("normal_gate_rad", config.normal_gate_rad);
+  visit("min_score", config.min_score);
+  visit("min_visible_share", config.min_visible_share);
+  visit("threads", config.threads);
+  visit("time_limit_s", config.time_limit_s);
+}
+
+/// `dbscan` or `greedy`.
+const char* toString(Clustering clustering);
+
+/// Inverse of toString. @throw std::invalid_argument naming the word and the allowed ones.
+Clustering clusteringFromString(const std::string& word);
+}  // namespace ppf_bin_picking
