@@ -8,6 +8,14 @@ set(core_dir "${CMAKE_CURRENT_LIST_DIR}")
 
 add_library(${PROJECT_NAME}_core
   ${core_dir}/detector_config.cpp
+  ${core_dir}/model_renderer.cpp
+  ${core_dir}/neighbor_search.cpp
+  ${core_dir}/normals.cpp
+  ${core_dir}/parallel.cpp
+  ${core_dir}/ppf.cpp
+  ${core_dir}/ppf_model.cpp
+  ${core_dir}/range_image.cpp
+  ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp)
 target_include_directories(${PROJECT_NAME}_core PUBLIC "${core_dir}/../../include")
 target_link_libraries(${PROJECT_NAME}_core PUBLIC Eigen3::Eigen PRIVATE PkgConfig::tbb)

@@ -1,0 +1,44 @@
+/// @file Oriented points on surfaces: uniform on a mesh, thinned out on a grid.
+#pragma once
+
+#include "ppf_bin_picking/core/triangle_mesh.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace ppf_bin_picking
+{
+/// Points [m] with unit normals, one for one.
+struct OrientedPoints
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;
+
+  std::size_t size() const { return points.size(); }
+  void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal)
+  {
+    points.push_back(point);
+    normals.push_back(normal);
+  }
+};
+
+/// The largest distance between two vertices [m]; 0 without vertices.
+float meshDiameter(const TriangleMesh& mesh);
+
+/// Centre of a sphere around all vertices, within a per mille of the smallest one's radius [m].
+Eigen::Vector3f boundingSphereCenter(const TriangleMesh& mesh);
+
+/// Samples the outside of a mesh uniformly by area. A point counts as outside if one of many
+/// viewpoints around the part sees it; its normal points to the side it is seen from, whatever the
+/// winding says. A sheet seen from both sides yields points on both.
+/// @param mesh       Metres; closed or not. Triangles seen from behind alone are turned round.
+/// @param spacing_m  Distance of neighbouring samples, about.
+OrientedPoints sampleVisibleSurface(TriangleMesh& mesh, float spacing_m);
+
+/// Thins out points to one a cell of a cubic grid and normal direction: points of a cell whose
+/// normals lie within 30 degrees of the first of a direction become their mean. Ordered by cell;
+/// points exactly on a cell's border aside, the order of the input does not matter but for
+/// rounding.
+OrientedPoints thinOut(const OrientedPoints& cloud, float cell_m);
+}  // namespace ppf_bin_picking

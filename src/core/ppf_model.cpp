@@ -1,0 +1,126 @@
+#include "ppf_bin_picking/core/ppf_model.hpp"
+
+#include "ppf_bin_picking/core/ppf.hpp"
+#include "ppf_bin_picking/core/surface_sampling.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr std::size_t kMaxPoints = 65535;  // an entry holds the reference in 16 bits
+constexpr float kSamplesPerStep = 5.0F;    // dense samples along one sampling step
+
+void requireThat(bool condition, const char* problem)
+{
+  if (!condition) throw std::invalid_argument(problem);
+}
+
+/// Calls visit(key, entry) for all ordered pairs that the quantizer covers.
+template <class Visitor>
+void forEachPair(const PpfModelData& data, const FeatureQuantizer& quantizer, Visitor visit)
+{
+  for (std::size_t r = 0; r < data.points.size(); ++r)
+  {
+    const Eigen::Matrix3f rotation = rotationToX(data.normals[r]);
+    for (std::size_t j = 0; j < data.points.size(); ++j)
+    {
+      if (r == j) continue;
+      const PairFeature feature =
+          pairFeature(data.points[r], data.normals[r], data.points[j], data.normals[j]);
+      if (!quantizer.covers(feature.distance_m)) continue;
+      const std::uint32_t alpha = pairAlpha(rotation, data.points[r], data.points[j]);
+      visit(quantizer.key(feature), static_cast<std::uint32_t>(r) << 16 | alpha);
+    }
+  }
+}
+
+/// Fills the table: counts the entries of each key, then puts them in place.
+void buildTable(PpfModelData& data)
+{
+  const FeatureQuantizer quantizer(data.parameters, data.diameter_m);
+  data.offsets.assign(quantizer.keyCount() + 1, 0);
+  forEachPair(data, quantizer, [&](std::uint32_t key, std::uint32_t) { ++data.offsets[key + 1]; });
+  for (std::size_t k = 1; k < data.offsets.size(); ++k)
+    data.offsets[k] += data.offsets[k - 1];
+  data.entries.resize(data.offsets.back());
+  std::vector<std::uint32_t> next(data.offsets.begin(), data.offsets.end() - 1);
+  forEachPair(data, quantizer,
+              [&](std::uint32_t key, std::uint32_t entry) { data.entries[next[key]++] = entry; });
+}
+
+void checkMesh(const TriangleMesh& mesh)
+{
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    requireThat(vertex.allFinite(), "a vertex is not finite");
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t index : triangle)
+      requireThat(index < mesh.vertices.size(), "a triangle names a vertex that does not exist");
+}
+
+void checkTable(const PpfModelData& data)
+{
+  const FeatureQuantizer quantizer(data.parameters, data.diameter_m);
+  requireThat(data.offsets.size() == quantizer.keyCount() + 1U,
+              "the table's size does not fit its parameters");
+  requireThat(data.offsets.front() == 0 && data.offsets.back() == data.entries.size(),
+              "the table's offsets do not fit its entries");
+  for (std::size_t k = 1; k < data.offsets.size(); ++k)
+    requireThat(data.offsets[k - 1] <= data.offsets[k], "the table's offsets do not ascend");
+  for (const std::uint32_t entry : data.entries)
+    requireThat((entry >> 16) < data.points.size(), "an entry names a point that does not exist");
+}
+}  // namespace
+
+PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetries,
+                         const ModelParameters& parameters)
+{
+  DetectorConfig config;
+  config.model = parameters;
+  const std::vector<std::string> problems = config.problems();
+  if (!problems.empty()) throw std::invalid_argument(problems.front());
+  checkMesh(mesh);
+
+  PpfModelData data;
+  data.parameters = parameters;
+  data.mesh = mesh;
+  data.symmetries_discrete = symmetries.generators();
+  data.symmetries_continuous = symmetries.revolutionAxes();
+  data.center = boundingSphereCenter(mesh);
+  data.diameter_m = meshDiameter(mesh);
+  requireThat(data.diameter_m > 0,
+              "the mesh has no surface: give one with at least a triangle of some area");
+  const float step_m = static_cast<float>(parameters.step_rel) * data.diameter_m;
+  OrientedPoints surface = sampleVisibleSurface(data.mesh, step_m / kSamplesPerStep);
+  for (Eigen::Vector3f& point : surface.points)
+    point -= data.center;
+  OrientedPoints samples = thinOut(surface, step_m);
+  requireThat(!samples.points.empty(),
+              "the mesh has no surface: give one with at least a triangle of some area");
+  requireThat(samples.size() <= kMaxPoints, "the model has more than 65535 points: raise step_rel");
+  data.points = std::move(samples.points);
+  data.normals = std::move(samples.normals);
+  buildTable(data);
+  return PpfModel(std::move(data));
+}
+
+PpfModel::PpfModel(PpfModelData data)
+    : data_(std::move(data)), symmetries_(data_.symmetries_discrete, data_.symmetries_continuous)
+{
+  DetectorConfig config;
+  config.model = data_.parameters;
+  const std::vector<std::string> problems = config.problems();
+  if (!problems.empty()) throw std::invalid_argument(problems.front());
+  requireThat(std::isfinite(data_.diameter_m) && data_.diameter_m > 0,
+              "the diameter is not above zero");
+  requireThat(data_.center.allFinite(), "the centre is not finite");
+  requireThat(!data_.points.empty() && data_.points.size() <= kMaxPoints,
+              "the number of points is out of range");
+  requireThat(data_.points.size() == data_.normals.size(), "points and normals differ in number");
+  checkMesh(data_.mesh);
+  checkTable(data_);
+}
+}  // namespace ppf_bin_picking
