@@ -1,0 +1,51 @@
+# shellcheck shell=bash
+# Shared by the scripts in this folder, which source it first.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# fail SENTENCE: the reason on stderr, and the end.
+fail()
+{
+  echo "$1" >&2
+  exit 1
+}
+
+# Another python3 may stand first on PATH (pyenv, conda); ROS needs the system's.
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
+
+# source_ros FILE: reads a setup file of ROS, which knows no `set -u`.
+source_ros()
+{
+  set +u
+  # shellcheck source=/dev/null
+  source "$1"
+  set -u
+}
+
+# build_package: configures once, then builds the package and its tests into build/.
+build_package()
+{
+  if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
+  if [ ! -f build/Makefile ]; then
+    local launcher=
+    if command -v ccache >/dev/null; then launcher=ccache; fi
+    cmake -S . -B build -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" \
+      -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3
+  fi
+  cmake --build build --parallel "$(nproc)" --target all tests
+}
+
+# use_package: makes rosrun and roslaunch find the build, with logs and a ROS master of its own.
+use_package()
+{
+  source_ros build/devel/setup.bash
+  export ROS_HOME=$PWD/build/ros_home
+  ROS_MASTER_URI=http://localhost:$(free_port)
+  export ROS_MASTER_URI
+}
+
+# free_port: a TCP port that nothing listens on.
+free_port()
+{
+  /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'
+}
