@@ -1,0 +1,52 @@
+/// @file The description of a part: mesh, unit, symmetries, picks.
+#pragma once
+
+#include "ppf_bin_picking/core/symmetry.hpp"
+
+#include "ppf_bin_picking/io/length_unit.hpp"
+
+#include <Eigen/Geometry>
+#include <yaml-cpp/yaml.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+/// Where a gripper may take the part.
+struct Pick
+{
+  std::string name;
+  Eigen::Isometry3d T_model_pick = Eigen::Isometry3d::Identity();  ///< [m]; +z into the part.
+};
+
+/// What a part file says, in metres and radians.
+struct PartDescription
+{
+  std::string model_id;   ///< Key `model_id`; else the file's stem; for a part.yaml its folder.
+  std::string mesh_file;  ///< Path.
+  LengthUnit unit = LengthUnit::kMetre;  ///< Of the mesh file.
+  std::vector<DiscreteSymmetry> symmetries_discrete;
+  std::vector<SymmetryAxis> symmetries_continuous;
+  std::vector<Pick> picks;  ///< Best first.
+  std::string model_file;   ///< Path of the trained model; empty: to be trained.
+  YAML::Node detector;      ///< Settings that differ for this part, for withSettings(). Checked.
+  std::string source;       ///< The part file, for messages.
+
+  /// Never throws for a description that loadPart() returned.
+  SymmetryGroup symmetries() const { return {symmetries_discrete, symmetries_continuous}; }
+};
+
+/// The folder of a ROS package; empty if there is none of that name.
+using PackageFinder = std::function<std::string(const std::string& package)>;
+
+/// A finder that looks along ROS_PACKAGE_PATH, so that no ROS library is needed: each folder on it,
+/// and each folder right below these, whose package.xml has that name.
+std::string findPackage(const std::string& package);
+
+/// Reads a part file. `mesh` (default model.stl) and `model` are relative to the file's folder, or
+/// `package://name/path`.
+/// @throw InputError naming the file, the key and the remedy; also if the symmetries are no group.
+PartDescription loadPart(const std::string& path, const PackageFinder& finder = findPackage);
+}  // namespace ppf_bin_picking

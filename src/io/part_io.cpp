@@ -1,0 +1,146 @@
+#include "ppf_bin_picking/io/part_io.hpp"
+
+#include "ppf_bin_picking/io/config_io.hpp"
+#include "ppf_bin_picking/io/file_bytes.hpp"
+#include "ppf_bin_picking/io/input_error.hpp"
+#include "ppf_bin_picking/io/yaml_map.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace ppf_bin_picking
+{
+namespace fs = std::filesystem;
+namespace
+{
+constexpr double kUnitTolerance = 1e-3;
+constexpr std::size_t kMaxManifestBytes = 1 << 20;
+
+Eigen::Vector3d vectorOf(const YamlMap& map, const std::string& key)
+{
+  return Eigen::Vector3d(map.numbers(key, 3).data());
+}
+
+SymmetryAxis readAxis(const YamlMap& map, double metres_per_unit)
+{
+  SymmetryAxis line;
+  line.axis = vectorOf(map, "axis");
+  if (!(line.axis.norm() > 0))
+    throw InputError(map.where() + ": axis has no length: give a direction such as [0, 0, 1]");
+  line.axis.normalize();
+  if (map.has("point")) line.point = vectorOf(map, "point") * metres_per_unit;
+  return line;
+}
+
+Pick readPick(const YamlMap& map, double metres_per_unit)
+{
+  Pick pick;
+  pick.name = map.text("name");
+  const std::vector<double> pose = map.numbers("pose", 7);
+  const Eigen::Quaterniond rotation(pose[6], pose[3], pose[4], pose[5]);
+  if (std::abs(rotation.norm() - 1.0) > kUnitTolerance)
+    throw InputError(map.where() + ": pose [x, y, z, qx, qy, qz, qw] has a quaternion of length " +
+                     std::to_string(rotation.norm()) + ": give one of length 1");
+  pick.T_model_pick.linear() = rotation.normalized().toRotationMatrix();
+  pick.T_model_pick.translation() = Eigen::Vector3d(pose.data()) * metres_per_unit;
+  return pick;
+}
+
+/// A path as a part file may give it.
+std::string resolved(const std::string& given, const std::string& part_file, const std::string& key,
+                     const PackageFinder& finder)
+{
+  const std::string scheme = "package://";
+  if (given.rfind(scheme, 0) != 0) return (fs::path(part_file).parent_path() / given).string();
+  const std::size_t slash = std::min(given.find('/', scheme.size()), given.size());
+  const std::string package = given.substr(scheme.size(), slash - scheme.size());
+  const std::string folder = finder(package);
+  if (folder.empty())
+    throw InputError(part_file + ": " + key + " names the package '" + package +
+                     "', which is not found: source the workspace that holds it, or give a path");
+  return folder + given.substr(slash);
+}
+
+std::string idOf(const std::string& path)
+{
+  const fs::path full = fs::absolute(path);
+  return full.filename() == "part.yaml" ? full.parent_path().filename().string()
+                                        : full.stem().string();
+}
+
+bool isPackage(const fs::path& folder, const std::string& package)
+{
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "package.xml", error)) return false;
+  try
+  {
+    const std::string manifest = readFile((folder / "package.xml").string(), kMaxManifestBytes);
+    return manifest.find("<name>" + package + "</name>") != std::string::npos;
+  }
+  catch (const InputError&)
+  {
+    return false;
+  }
+}
+
+void readSymmetries(const YamlMap& map, PartDescription& part)
+{
+  const double scale = metres(part.unit);
+  for (const YamlMap& item : map.maps("symmetries_discrete", {"axis", "angle_deg", "point"}))
+    part.symmetries_discrete.push_back(
+        {readAxis(item, scale), item.number("angle_deg") * M_PI / 180.0});
+  for (const YamlMap& item : map.maps("symmetries_continuous", {"axis", "point"}))
+    part.symmetries_continuous.push_back(readAxis(item, scale));
+  try
+  {
+    part.symmetries();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw InputError(part.source + ": " + error.what());
+  }
+}
+}  // namespace
+
+std::string findPackage(const std::string& package)
+{
+  const char* roots = std::getenv("ROS_PACKAGE_PATH");
+  std::istringstream list(roots == nullptr ? "" : roots);
+  for (std::string root; std::getline(list, root, ':');)
+  {
+    if (isPackage(root, package)) return root;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root, error))
+      if (isPackage(entry.path(), package)) return entry.path().string();
+  }
+  return {};
+}
+
+PartDescription loadPart(const std::string& path, const PackageFinder& finder)
+{
+  const YamlMap map(loadYaml(path), path,
+                    {"model_id", "mesh", "unit", "symmetries_discrete", "symmetries_continuous",
+                     "picks", "model", "detector"});
+  PartDescription part;
+  part.source = path;
+  if (!map.has("unit"))
+    throw InputError(path +
+                     ": unit is missing, and a mesh file does not know its own: add "
+                     "'unit: mm' or 'unit: m'");
+  part.unit = lengthUnitFromString(map.text("unit"), path + ": unit");
+  part.model_id = map.has("model_id") ? map.text("model_id") : idOf(path);
+  part.mesh_file = resolved(map.has("mesh") ? map.text("mesh") : "model.stl", path, "mesh", finder);
+  if (map.has("model")) part.model_file = resolved(map.text("model"), path, "model", finder);
+  readSymmetries(map, part);
+  for (const YamlMap& item : map.maps("picks", {"name", "pose"}))
+    part.picks.push_back(readPick(item, metres(part.unit)));
+  if (map.has("detector"))
+  {
+    part.detector = map.node("detector");
+    withSettings(DetectorConfig(), part.detector, path + ": detector");
+  }
+  return part;
+}
+}  // namespace ppf_bin_picking
