@@ -7,15 +7,27 @@ pkg_check_modules(tbb REQUIRED IMPORTED_TARGET tbb)
 set(core_dir "${CMAKE_CURRENT_LIST_DIR}")
 
 add_library(${PROJECT_NAME}_core
+  ${core_dir}/candidate_search.cpp
+  ${core_dir}/dbscan.cpp
+  ${core_dir}/detection_result.cpp
+  ${core_dir}/detector.cpp
   ${core_dir}/detector_config.cpp
+  ${core_dir}/mismatch.cpp
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
   ${core_dir}/normals.cpp
   ${core_dir}/parallel.cpp
+  ${core_dir}/pca.cpp
+  ${core_dir}/pose_clustering.cpp
+  ${core_dir}/pose_refinement.cpp
+  ${core_dir}/pose_report.cpp
   ${core_dir}/ppf.cpp
+  ${core_dir}/ppf_matcher.cpp
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
+  ${core_dir}/selection.cpp
   ${core_dir}/surface_sampling.cpp
-  ${core_dir}/symmetry.cpp)
+  ${core_dir}/symmetry.cpp
+  ${core_dir}/verification.cpp)
 target_include_directories(${PROJECT_NAME}_core PUBLIC "${core_dir}/../../include")
 target_link_libraries(${PROJECT_NAME}_core PUBLIC Eigen3::Eigen PRIVATE PkgConfig::tbb)

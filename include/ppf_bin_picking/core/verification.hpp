@@ -1,0 +1,52 @@
+/// @file What the cloud says of a pose: confirmed, contradicted, hidden.
+#pragma once
+
+#include "ppf_bin_picking/core/detector_config.hpp"
+#include "ppf_bin_picking/core/ppf_model.hpp"
+#include "ppf_bin_picking/core/range_image.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+/// The pixels that a free part at the pose would cover, sorted by what was measured there.
+struct PoseEvidence
+{
+  std::vector<std::uint32_t>
+      confirmed;           ///< Image indices: surface and normal agree, inside the region.
+  int looked_through = 0;  ///< The cloud lies behind the supposed surface.
+  int wrong_normal = 0;    ///< A surface in the right place with another normal.
+  int missing = 0;         ///< Nothing was measured.
+  int occluded = 0;        ///< The cloud lies in front.
+  int outside = 0;         ///< Explained by a surface outside the region of interest.
+  int edge_confirmed = 0;  ///< Outline pixels beyond which the surface ends.
+  int edge_missing = 0;    ///< Outline pixels beyond which the same surface goes on.
+  float rms_error_m = 0;   ///< Of the confirmed pixels, along their normals.
+
+  /// Pixels that are not hidden by something in front.
+  int expected() const
+  {
+    return static_cast<int>(confirmed.size()) + looked_through + wrong_normal + missing + outside;
+  }
+};
+
+/// Renders the part at the pose and compares pixel by pixel.
+/// @param T_camera_model  Mesh frame to camera frame [m].
+PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
+                            const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config);
+
+/// Share of the surface the camera should see that the cloud confirms, in [0, 1].
+/// @param confirmed  Confirmed pixels that count, at most those of the evidence.
+double poseScore(const PoseEvidence& evidence, double confirmed);
+
+/// How much the cloud speaks for the pose, in pixels; below zero it speaks against it. Unlike the
+/// score it grows with the surface explained, so that a pose claiming little does not win over one
+/// explaining more.
+double evidenceBalance(const PoseEvidence& evidence, double confirmed);
+
+/// Share of what a free part would show that nothing in front hides, in [0, 1].
+double visibleFraction(const PoseEvidence& evidence);
+}  // namespace ppf_bin_picking

@@ -1,0 +1,121 @@
+#include "ppf_bin_picking/core/candidate_search.hpp"
+
+#include "ppf_bin_picking/core/pose_clustering.hpp"
+#include "ppf_bin_picking/core/pose_refinement.hpp"
+#include "ppf_bin_picking/core/ppf_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr float kPlaceRel =
+    0.15F;  // candidates nearer than this share a place, relative to the diameter
+constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
+
+/// The groups worth refining: most votes first, a few a place, max_candidates in all.
+std::vector<PoseGroup> worthRefining(const std::vector<PoseGroup>& groups,
+                                     const DetectorConfig& config, float place_m)
+{
+  std::vector<PoseGroup> chosen;
+  for (const PoseGroup& group : groups)
+  {
+    if (chosen.size() == static_cast<std::size_t>(config.max_candidates)) break;
+    const auto here = std::count_if(chosen.begin(), chosen.end(),
+                                    [&](const PoseGroup& other)
+                                    { return (other.center - group.center).norm() < place_m; });
+    if (static_cast<std::size_t>(here) < kMaxPerPlace) chosen.push_back(group);
+  }
+  return chosen;
+}
+
+/// T_camera_model of a pose about the part's centre.
+Eigen::Isometry3f poseOf(const Eigen::Quaternionf& rotation, const Eigen::Vector3f& center_camera,
+                         const Eigen::Vector3f& center_model)
+{
+  Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+  pose.linear() = rotation.toRotationMatrix();
+  pose.translation() = center_camera - pose.linear() * center_model;
+  return pose;
+}
+}  // namespace
+
+OrientedPoints sampleScene(const RangeImage& image, float step_m)
+{
+  OrientedPoints cloud;
+  for (int v = 0; v < image.camera.height; ++v)
+    for (int u = 0; u < image.camera.width; ++u)
+    {
+      const std::size_t i = image.index(u, v);
+      if (image.in_roi[i] && !image.normals[i].isZero())
+        cloud.add(image.point(u, v), image.normals[i]);
+    }
+  return thinOut(cloud, step_m);
+}
+
+void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint32_t model_index,
+                      const DetectorConfig& config, const Deadline& deadline,
+                      const std::function<void(const char*)>& lap, DetectionResult& result,
+                      std::vector<Candidate>& candidates)
+{
+  const OrientedPoints scene =
+      sampleScene(image, static_cast<float>(config.model.step_rel * model.diameter()));
+  if (model_index == 0) result.scene_points = scene.points;
+  lap("sampling");
+  std::vector<PoseHypothesis> distribution =
+      highVoteHypotheses(matchModel(scene, model, config, deadline), config.min_votes_rel);
+  lap("voting");
+  std::vector<HypothesisCluster> clusters;
+  if (config.clustering == Clustering::kDbscan)
+    clusters = clusterHypotheses(config, model, distribution);
+  lap("clustering");
+  const std::vector<PoseGroup> groups =
+      worthRefining(candidatePoses(config, model, distribution, clusters.size()), config,
+                    kPlaceRel * static_cast<float>(model.diameter()));
+  lap("grouping");
+
+  const auto first_cluster = static_cast<std::int32_t>(result.clusters.size());
+  const std::size_t first_candidate = candidates.size();
+  candidates.resize(first_candidate + groups.size());
+  const auto refine = [&](std::size_t i)
+  {
+    Candidate& candidate = candidates[first_candidate + i];
+    candidate.model = model_index;
+    candidate.cluster = groups[i].cluster < 0 ? -1 : groups[i].cluster + first_cluster;
+    candidate.votes = groups[i].votes;
+    candidate.T_camera_model = poseOf(groups[i].rotation, groups[i].center, model.data().center);
+    if (!deadline.passed())
+      candidate.T_camera_model = refinePose(image, model, candidate.T_camera_model, config);
+  };
+  parallelFor(config.threads, groups.size(), refine);
+  lap("refinement");
+
+  for (HypothesisCluster& cluster : clusters)
+    cluster.model = model_index;
+  for (PoseHypothesis& hypothesis : distribution)
+  {
+    hypothesis.model = model_index;
+    if (hypothesis.cluster >= 0) hypothesis.cluster += first_cluster;
+  }
+  result.clusters.insert(result.clusters.end(), clusters.begin(), clusters.end());
+  result.distribution.insert(result.distribution.end(), distribution.begin(), distribution.end());
+}
+
+void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                      const DetectorConfig& config, const Deadline& deadline,
+                      std::vector<Candidate>& candidates)
+{
+  const auto verify = [&](std::size_t i)
+  {
+    if (deadline.passed()) return;
+    Candidate& candidate = candidates[i];
+    candidate.evidence =
+        gatherEvidence(image, *models[candidate.model], candidate.T_camera_model, config);
+    candidate.verified = true;
+  };
+  parallelFor(config.threads, candidates.size(), verify);
+}
+}  // namespace ppf_bin_picking

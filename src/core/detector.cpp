@@ -1,0 +1,175 @@
+#include "ppf_bin_picking/core/detector.hpp"
+
+#include "ppf_bin_picking/core/candidate_search.hpp"
+#include "ppf_bin_picking/core/parallel.hpp"
+#include "ppf_bin_picking/core/pose_report.hpp"
+#include "ppf_bin_picking/core/range_image.hpp"
+#include "ppf_bin_picking/core/selection.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+/// Measures the stages one after the other.
+class StageClock
+{
+public:
+  /// Ends the stage that ran until now.
+  void lap(const std::string& name, std::vector<StageTime>& stages)
+  {
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    const auto known = std::find_if(stages.begin(), stages.end(),
+                                    [&](const StageTime& stage) { return stage.name == name; });
+    if (known == stages.end())
+      stages.push_back({name, seconds});
+    else
+      known->seconds += seconds;
+    last_ = now;
+  }
+  double total() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+std::string cloudProblem(const PointCloud& cloud, const DetectorConfig& config)
+{
+  std::ostringstream text;
+  if (cloud.size() == 0)
+    text << "the cloud has no points: check that the camera is running";
+  else if (cloud.width * cloud.height != cloud.size())
+    text << "the cloud has " << cloud.size() << " points but says " << cloud.width << " x "
+         << cloud.height << ": mend its width and height";
+  else if (cloud.size() > static_cast<std::size_t>(config.max_points))
+    text << "the cloud has " << cloud.size() << " points, more than max_points ("
+         << config.max_points << "): thin it out, crop it, or raise max_points";
+  else if (!cloud.normals.empty() && cloud.normals.size() != cloud.size())
+    text << "the cloud has " << cloud.normals.size() << " normals for " << cloud.size()
+         << " points: give one for each or none";
+  else if (config.use_cloud_normals && cloud.normals.empty())
+    text << "the cloud has no normals but use_cloud_normals is set: unset it or send normals";
+  return text.str();
+}
+
+RangeImageOptions imageOptions(const DetectorConfig& config,
+                               const std::vector<const PpfModel*>& models)
+{
+  const auto smaller = [](const PpfModel* a, const PpfModel* b)
+  { return a->diameter() < b->diameter(); };
+  const auto [smallest, largest] = std::minmax_element(models.begin(), models.end(), smaller);
+  return {(*smallest)->diameter(), (*largest)->diameter(),   config.pixels_per_diameter,
+          config.normal_radius_px, config.use_cloud_normals, config.threads};
+}
+
+void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
+{
+  const auto reliable = std::count_if(result.poses.begin(), result.poses.end(),
+                                      [](const DetectedPose& pose) { return pose.reliable; });
+  std::ostringstream text;
+  if (cut_short)
+  {
+    result.status = DetectionStatus::kTimeLimit;
+    text << "the time limit of " << time_limit_s << " s ended the search with " << reliable
+         << " reliable poses: raise time_limit_s to see all";
+  }
+  else if (reliable > 0)
+  {
+    result.status = DetectionStatus::kOk;
+    text << reliable << " reliable poses";
+  }
+  else
+  {
+    result.status = DetectionStatus::kNoPickablePose;
+    text << "no reliable pose among " << result.poses.size()
+         << " found: see the mismatching regions for the reasons";
+  }
+  result.message = text.str();
+}
+}  // namespace
+
+std::string modelProblem(const PpfModel& model, const DetectorConfig& config,
+                         const std::optional<RegionOfInterest>& roi)
+{
+  std::ostringstream text;
+  const ModelParameters& trained = model.parameters();
+  if (!(trained == config.model))
+    text << "the model was trained with step_rel " << trained.step_rel << " and n_angle "
+         << trained.n_angle << " but the configuration says " << config.model.step_rel << " and "
+         << config.model.n_angle << ": train it again or mend the configuration";
+  else if (roi && model.diameter() > roi->diagonal())
+    text << "the part is " << model.diameter()
+         << " m long but the region of interest measures only " << roi->diagonal()
+         << " m across: the mesh's unit is probably wrong (m for mm), or the region's numbers are";
+  return text.str();
+}
+
+Detector::Detector(DetectorConfig config) : config_(config)
+{
+  std::string text;
+  for (const std::string& problem : config_.problems())
+    text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) throw std::invalid_argument(text);
+}
+
+DetectionResult Detector::detect(const PointCloud& cloud_camera, const PpfModel& model,
+                                 const std::optional<RegionOfInterest>& roi) const
+{
+  return detect(cloud_camera, std::vector<const PpfModel*>{&model}, roi);
+}
+
+DetectionResult Detector::detect(const PointCloud& cloud_camera,
+                                 const std::vector<const PpfModel*>& models,
+                                 const std::optional<RegionOfInterest>& roi) const
+{
+  if (models.empty()) throw std::invalid_argument("no model to look for: give at least one");
+  for (const PpfModel* model : models)
+  {
+    const std::string problem = modelProblem(*model, config_, roi);
+    if (!problem.empty()) throw std::invalid_argument(problem);
+  }
+  StageClock clock;
+  const Deadline deadline(config_.time_limit_s);
+  DetectionResult result;
+  result.message = cloudProblem(cloud_camera, config_);
+  if (!result.message.empty())
+  {
+    result.status = DetectionStatus::kBadCloud;
+    result.seconds = clock.total();
+    return result;
+  }
+  const RangeImageResult prepared =
+      makeRangeImage(cloud_camera, roi, imageOptions(config_, models));
+  result.roi_points = prepared.roi_points;
+  clock.lap("preparation", result.stages);
+  if (prepared.roi_points == 0)
+  {
+    result.status = DetectionStatus::kRoiEmpty;
+    result.message =
+        "no measured point in the region of interest: the bin is empty, or the region is misplaced";
+    result.seconds = clock.total();
+    return result;
+  }
+  const auto lap = [&](const char* stage) { clock.lap(stage, result.stages); };
+  std::vector<Candidate> candidates;
+  for (std::uint32_t i = 0; i < models.size(); ++i)
+    searchCandidates(prepared.image, *models[i], i, config_, deadline, lap, result, candidates);
+  verifyCandidates(prepared.image, models, config_, deadline, candidates);
+  lap("verification");
+  const std::vector<SelectedPose> selected =
+      selectCandidates(candidates, prepared.image.depth.size());
+  reportPoses(models, config_, candidates, selected, result);
+  lap("selection");
+  setStatus(result, deadline.passed(), config_.time_limit_s);
+  result.seconds = clock.total();
+  return result;
+}
+}  // namespace ppf_bin_picking

@@ -1,0 +1,163 @@
+#include "ppf_bin_picking/core/pose_refinement.hpp"
+
+#include "ppf_bin_picking/core/model_renderer.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr int kStepsPerView = 4;  // the visible surface is rendered anew after so many steps
+constexpr std::size_t kSurfacePoints = 500;  // of the visible surface, about
+constexpr float kFirstGateRel = 0.10F;       // of the diameter
+constexpr float kMinNormalCosine = 0.7F;
+constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out
+constexpr float kLeverRel = 0.35F;       // length that makes rotations comparable to translations
+constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction is not held
+constexpr float kConvergedRel = 1e-5F;   // step, relative to the diameter
+constexpr float kPriorShare = 1e-3F;
+
+using Vector6f = Eigen::Matrix<float, 6, 1>;
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+
+/// A point of the part's visible surface, mesh frame.
+struct SurfacePoint
+{
+  Eigen::Vector3f point;
+  Eigen::Vector3f normal;
+};
+
+/// About kSurfacePoints of what the camera sees of a free part at this pose, evenly over the image.
+void visibleSurface(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
+                    const PinholeCamera& camera, std::vector<SurfacePoint>& surface)
+{
+  thread_local RenderedPart view;
+  renderPart(model.data().mesh, T_camera_model, camera, view);
+  surface.clear();
+  const auto covered = static_cast<std::size_t>(
+      std::count_if(view.depth.begin(), view.depth.end(), [](float z) { return z > 0; }));
+  const int stride =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<float>(covered) / kSurfacePoints)));
+  const Eigen::Isometry3f T_model_camera = T_camera_model.inverse(Eigen::Isometry);
+  for (int row = stride / 2; row < view.height; row += stride)
+    for (int column = stride / 2; column < view.width; column += stride)
+    {
+      const float z = view.depthAt(column, row);
+      if (z == 0) continue;
+      const Eigen::Vector3f ray =
+          camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
+      Eigen::Vector3f normal =
+          view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
+      if (normal.dot(ray) > 0) normal = -normal;
+      if (-normal.dot(ray) < kMinFacing * ray.norm()) continue;
+      surface.push_back({T_model_camera * (z * ray), T_model_camera.linear() * normal});
+    }
+}
+
+/// The weighted normal equations of one step, about the part's centre.
+struct NormalEquations
+{
+  Matrix6f matrix = Matrix6f::Zero();
+  Vector6f right_side = Vector6f::Zero();
+  float weight = 0;
+
+  void add(const Vector6f& jacobian, float residual, float w)
+  {
+    matrix += w * jacobian * jacobian.transpose();
+    right_side += w * residual * jacobian;
+    weight += w;
+  }
+
+  /// The step, without its part along directions that the data does not hold.
+  Vector6f solve() const
+  {
+    const Eigen::SelfAdjointEigenSolver<Matrix6f> solver(matrix / weight);
+    Vector6f along = solver.eigenvectors().transpose() * right_side / weight;
+    for (int i = 0; i < 6; ++i)
+    {
+      const float held = solver.eigenvalues()(i);
+      along(i) = held > kWeakDirection ? along(i) / (held + kPriorShare) : 0.0F;
+    }
+    return solver.eigenvectors() * along;
+  }
+};
+
+NormalEquations equationsOf(const RangeImage& image, const std::vector<SurfacePoint>& surface,
+                            const Eigen::Isometry3f& T_camera_model, const Eigen::Vector3f& center,
+                            float lever_m, float gate_m)
+{
+  NormalEquations equations;
+  for (const SurfacePoint& sample : surface)
+  {
+    const Eigen::Vector3f p = T_camera_model * sample.point;
+    int u, v;
+    if (!image.camera.pixelOf(p, u, v)) continue;
+    const std::size_t pixel = image.index(u, v);
+    const Eigen::Vector3f& normal = image.normals[pixel];
+    if (image.depth[pixel] == 0 ||
+        normal.dot(T_camera_model.linear() * sample.normal) < kMinNormalCosine)
+      continue;
+    const float residual = normal.dot(image.point(u, v) - p);
+    const float share = residual / gate_m;
+    if (std::abs(share) >= 1) continue;
+    const float tukey = (1 - share * share) * (1 - share * share);
+    const Eigen::Vector3f arm = (p - center) / lever_m;
+    Vector6f jacobian;
+    jacobian << arm.y() * normal.z() - arm.z() * normal.y(),
+        arm.z() * normal.x() - arm.x() * normal.z(), arm.x() * normal.y() - arm.y() * normal.x(),
+        normal.x(), normal.y(), normal.z();
+    equations.add(jacobian, residual, tukey);
+  }
+  return equations;
+}
+
+/// Turns and shifts the pose by a step about a centre in the camera frame.
+Eigen::Isometry3f moved(const Eigen::Isometry3f& T_camera_model, const Vector6f& step,
+                        const Eigen::Vector3f& center, float lever_m)
+{
+  const Eigen::Vector3f turn = step.head<3>() / lever_m;
+  const float angle = turn.norm();
+  const Eigen::Matrix3f rotation = angle > 0
+                                       ? Eigen::AngleAxisf(angle, turn / angle).toRotationMatrix()
+                                       : Eigen::Matrix3f::Identity();
+  Eigen::Isometry3f result;
+  const Eigen::Matrix3f turned = rotation * T_camera_model.linear();
+  result.linear() = Eigen::Quaternionf(turned).normalized().toRotationMatrix();
+  result.translation() =
+      center + rotation * (T_camera_model.translation() - center) + step.tail<3>();
+  result.makeAffine();
+  return result;
+}
+}  // namespace
+
+Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
+                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+{
+  const auto diameter = static_cast<float>(model.diameter());
+  const float lever_m = kLeverRel * diameter;
+  const float last_gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * diameter;
+  Eigen::Isometry3f pose = T_camera_model;
+  thread_local std::vector<SurfacePoint> surface;
+  for (int i = 0; i < config.icp_iterations; ++i)
+  {
+    if (i % kStepsPerView == 0) visibleSurface(model, pose, image.camera, surface);
+    const float progress =
+        static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
+    const float gate_m = std::max(
+        last_gate_m, kFirstGateRel * diameter *
+                         std::pow(last_gate_m / (kFirstGateRel * diameter), 1.5F * progress));
+    const Eigen::Vector3f center = pose * model.data().center;
+    const NormalEquations equations = equationsOf(image, surface, pose, center, lever_m, gate_m);
+    if (!(equations.weight > 6)) break;
+    const Vector6f step = equations.solve();
+    pose = moved(pose, step, center, lever_m);
+    if (gate_m == last_gate_m && step.norm() < kConvergedRel * diameter) break;
+  }
+  return pose;
+}
+}  // namespace ppf_bin_picking

@@ -1,0 +1,151 @@
+#include "ppf_bin_picking/core/pose_report.hpp"
+
+#include "ppf_bin_picking/core/mismatch.hpp"
+#include "ppf_bin_picking/core/pca.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+/// The part's box at a pose, along the mesh's axes.
+OrientedBox boxOfPart(const PpfModel& model, const Eigen::Isometry3d& T_cloud_model)
+{
+  Eigen::AlignedBox3f extent;
+  for (const Eigen::Vector3f& vertex : model.data().mesh.vertices)
+    extent.extend(vertex);
+  OrientedBox box;
+  box.size = extent.sizes().cast<double>();
+  box.T_cloud_box = T_cloud_model * Eigen::Translation3d(extent.center().cast<double>());
+  return box;
+}
+
+std::string percent(double share)
+{
+  std::ostringstream text;
+  text.precision(0);
+  text << std::fixed << 100 * share << " %";
+  return text.str();
+}
+
+/// Why a pose cannot be trusted; kNone if it can.
+UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
+                          const PpfModel& model, const DetectorConfig& config)
+{
+  const bool spread = sideSum(share.box) > config.max_spread_rel * model.diameter();
+  if (config.mismatch_test && config.clustering == Clustering::kDbscan && spread)
+    return UnreliableReason::kSpread;
+  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share)
+    return UnreliableReason::kLowScore;
+  return UnreliableReason::kNone;
+}
+
+std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const PpfModel& model,
+                     const DetectorConfig& config)
+{
+  if (pose.reason == UnreliableReason::kSpread)
+    return "the hypotheses spread over " + percent(sideSum(spread) / model.diameter()) +
+           " of the part's diameter, more than max_spread_rel allows (" +
+           percent(config.max_spread_rel) + ")";
+  return "the cloud confirms " + percent(pose.score) + " (min_score " + percent(config.min_score) +
+         ") of the " + percent(pose.visible_fraction) + " (min_visible_share " +
+         percent(config.min_visible_share) + ") of the part that nothing hides";
+}
+
+MismatchRegion regionOf(const DetectedPose& pose, const ClusterShare& share, const PpfModel& model,
+                        const DetectorConfig& config)
+{
+  MismatchRegion region;
+  region.model = pose.model;
+  region.reason = pose.reason;
+  region.box =
+      pose.reason == UnreliableReason::kSpread ? share.box : boxOfPart(model, pose.T_cloud_model);
+  region.T_cloud_best = pose.T_cloud_model;
+  region.score = pose.score;
+  region.hypotheses = share.hypotheses;
+  region.detail = detailOf(pose, share.box, model, config);
+  return region;
+}
+
+DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed)
+{
+  DetectedPose pose;
+  pose.model = candidate.model;
+  pose.T_cloud_model = candidate.T_camera_model.cast<double>();
+  pose.T_cloud_model.linear() =
+      Eigen::Quaterniond(pose.T_cloud_model.linear()).normalized().toRotationMatrix();
+  pose.score = poseScore(candidate.evidence, confirmed);
+  pose.votes = candidate.votes;
+  pose.visible_fraction = visibleFraction(candidate.evidence);
+  pose.rms_error_m = candidate.evidence.rms_error_m;
+  pose.cluster = candidate.cluster;
+  return pose;
+}
+
+/// Mismatching clusters in which no pose stands, each with its best candidate.
+void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                         const std::vector<Candidate>& candidates,
+                         const std::vector<bool>& has_pose, DetectionResult& result)
+{
+  for (std::size_t c = 0; c < result.clusters.size(); ++c)
+  {
+    const HypothesisCluster& cluster = result.clusters[c];
+    if (!cluster.mismatching || has_pose[c]) continue;
+    const auto best = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const Candidate& candidate)
+                                   { return candidate.cluster == static_cast<std::int32_t>(c); });
+    if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
+    DetectedPose pose =
+        poseOfCandidate(*best, static_cast<double>(best->evidence.confirmed.size()));
+    pose.reason = UnreliableReason::kSpread;
+    result.regions.push_back(
+        regionOf(pose, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
+  }
+}
+}  // namespace
+
+std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candidates,
+                                           std::size_t pixels)
+{
+  std::vector<PoseEvidence> evidence;
+  for (const Candidate& candidate : candidates)
+    evidence.push_back(candidate.evidence);
+  return selectPoses(evidence, pixels);
+}
+
+void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                 const std::vector<Candidate>& candidates,
+                 const std::vector<SelectedPose>& selected, DetectionResult& result)
+{
+  std::vector<Eigen::Vector3f> centers;
+  std::vector<std::int32_t> clusters;
+  std::vector<bool> has_pose(result.clusters.size(), false);
+  for (const SelectedPose& standing : selected)
+  {
+    const Candidate& candidate = candidates[standing.candidate];
+    centers.push_back(candidate.T_camera_model * models[candidate.model]->data().center);
+    clusters.push_back(candidate.cluster);
+    if (candidate.cluster >= 0) has_pose[static_cast<std::size_t>(candidate.cluster)] = true;
+  }
+  const std::vector<ClusterShare> shares = shareClusters(result.distribution, centers, clusters);
+  for (std::size_t i = 0; i < selected.size(); ++i)
+  {
+    const Candidate& candidate = candidates[selected[i].candidate];
+    DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed);
+    const PpfModel& model = *models[pose.model];
+    pose.reason = reasonOf(pose, shares[i], model, config);
+    pose.reliable = pose.reason == UnreliableReason::kNone;
+    if (!pose.reliable) result.regions.push_back(regionOf(pose, shares[i], model, config));
+    result.poses.push_back(pose);
+  }
+  if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const DetectedPose& a, const DetectedPose& b)
+                   { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
+  std::stable_sort(result.regions.begin(), result.regions.end(),
+                   [](const MismatchRegion& a, const MismatchRegion& b)
+                   { return a.score > b.score; });
+}
+}  // namespace ppf_bin_picking

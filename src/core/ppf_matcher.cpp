@@ -1,0 +1,184 @@
+#include "ppf_bin_picking/core/ppf_matcher.hpp"
+
+#include "ppf_bin_picking/core/neighbor_search.hpp"
+#include "ppf_bin_picking/core/ppf.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr std::size_t kMaxPeakCells =
+    200;  // cells of an accumulator that are looked at for further peaks
+
+/// Votes over (model reference point, alpha bin) for one scene reference point.
+class Accumulator
+{
+public:
+  void reset(std::size_t references, std::uint32_t alpha_bins)
+  {
+    alpha_bins_ = alpha_bins;
+    cells_.assign(references * alpha_bins, 0);
+  }
+
+  /// @param entry  Of the model's table.
+  void vote(std::uint32_t entry, std::uint16_t alpha_scene, std::uint32_t weight)
+  {
+    const auto alpha = static_cast<std::uint16_t>(entry - alpha_scene);
+    cells_[(entry >> 16) * alpha_bins_ + (alpha * alpha_bins_ >> 16)] += weight;
+  }
+
+  /// Cells with at least a share of the most votes, most votes first, of equal ones the first.
+  std::vector<std::uint32_t> strongestCells(double share) const
+  {
+    const std::uint32_t most = *std::max_element(cells_.begin(), cells_.end());
+    const auto least =
+        std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::ceil(share * most)));
+    std::vector<std::uint32_t> strongest;
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell)
+      if (cells_[cell] >= least) strongest.push_back(cell);
+    std::stable_sort(strongest.begin(), strongest.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return cells_[a] > cells_[b]; });
+    if (strongest.size() > kMaxPeakCells) strongest.resize(kMaxPeakCells);
+    return strongest;
+  }
+
+  std::uint32_t votes(std::uint32_t cell) const { return cells_[cell]; }
+  std::uint32_t reference(std::uint32_t cell) const { return cell / alpha_bins_; }
+
+  /// The alpha [rad] of a cell: the centre of mass of the cell and its two neighbours round the
+  /// circle.
+  float alpha(std::uint32_t cell) const
+  {
+    const std::uint32_t first = cell / alpha_bins_ * alpha_bins_;
+    const std::uint32_t bin = cell - first;
+    const auto before = static_cast<float>(cells_[first + (bin + alpha_bins_ - 1) % alpha_bins_]);
+    const auto here = static_cast<float>(cells_[cell]);
+    const auto after = static_cast<float>(cells_[first + (bin + 1) % alpha_bins_]);
+    const float offset = (after - before) / (before + here + after);
+    const float step_rad = 2 * static_cast<float>(M_PI) / static_cast<float>(alpha_bins_);
+    return (static_cast<float>(bin) + 0.5F + offset) * step_rad;
+  }
+
+private:
+  std::uint32_t alpha_bins_ = 1;
+  std::vector<std::uint32_t> cells_;
+};
+
+/// What the reference points share.
+struct Matching
+{
+  const OrientedPoints& scene;
+  const PpfModelData& model;
+  const SymmetryGroup& symmetries;
+  const DetectorConfig& config;
+  FeatureQuantizer quantizer;
+  NeighborSearch search;
+};
+
+void castVotes(const Matching& matching, std::uint32_t reference, Accumulator& accumulator)
+{
+  thread_local std::vector<std::uint32_t> near;
+  const Eigen::Vector3f& p1 = matching.scene.points[reference];
+  const Eigen::Vector3f& n1 = matching.scene.normals[reference];
+  const Eigen::Matrix3f rotation = rotationToX(n1);
+  matching.search.within(p1, matching.model.diameter_m, near);
+  for (const std::uint32_t j : near)
+  {
+    if (j == reference) continue;
+    const Eigen::Vector3f& p2 = matching.scene.points[j];
+    const Eigen::Vector3f& n2 = matching.scene.normals[j];
+    const PairFeature feature = pairFeature(p1, n1, p2, n2);
+    if (!matching.quantizer.covers(feature.distance_m)) continue;
+    const std::uint32_t key = matching.quantizer.key(feature);
+    const std::uint32_t begin = matching.model.offsets[key];
+    const std::uint32_t end = matching.model.offsets[key + 1];
+    if (begin == end) continue;
+    const std::uint16_t alpha = pairAlpha(rotation, p1, p2);
+    const std::uint32_t weight = voteWeight(n1, n2, matching.config.lambda, matching.config.v_min);
+    for (std::uint32_t i = begin; i < end; ++i)
+      accumulator.vote(matching.model.entries[i], alpha, weight);
+  }
+}
+
+/// The pose that lays the model's reference point and normal onto the scene's, turned by alpha.
+PoseHypothesis poseOfCell(const Matching& matching, std::uint32_t reference,
+                          const Accumulator& accumulator, std::uint32_t cell)
+{
+  const std::uint32_t model_reference = accumulator.reference(cell);
+  const Eigen::Matrix3f R_local_model = rotationToX(matching.model.normals[model_reference]);
+  const Eigen::Matrix3f R_local_cloud = rotationToX(matching.scene.normals[reference]);
+  const Eigen::Matrix3f turn =
+      Eigen::AngleAxisf(accumulator.alpha(cell), Eigen::Vector3f::UnitX()).toRotationMatrix();
+  PoseHypothesis hypothesis;
+  hypothesis.rotation =
+      Eigen::Quaternionf(R_local_cloud.transpose() * turn * R_local_model).normalized();
+  hypothesis.center = matching.scene.points[reference] -
+                      hypothesis.rotation * matching.model.points[model_reference];
+  hypothesis.votes = static_cast<float>(accumulator.votes(cell)) / kVoteUnit;
+  return hypothesis;
+}
+
+/// The best peak and further ones that are different poses.
+std::vector<PoseHypothesis> findPeaks(const Matching& matching, std::uint32_t reference,
+                                      const Accumulator& accumulator)
+{
+  const DetectorConfig& config = matching.config;
+  const float same_place_m =
+      static_cast<float>(config.group_distance_rel) * matching.model.diameter_m;
+  std::vector<PoseHypothesis> peaks;
+  for (const std::uint32_t cell : accumulator.strongestCells(config.peak_ratio))
+  {
+    if (peaks.size() == static_cast<std::size_t>(config.peaks_per_reference)) break;
+    const PoseHypothesis candidate = poseOfCell(matching, reference, accumulator, cell);
+    const auto same = [&](const PoseHypothesis& known)
+    {
+      return (known.center - candidate.center).norm() < same_place_m &&
+             matching.symmetries.rotationDistance(known.rotation, candidate.rotation) <
+                 config.group_angle_rad;
+    };
+    if (std::none_of(peaks.begin(), peaks.end(), same)) peaks.push_back(candidate);
+  }
+  return peaks;
+}
+}  // namespace
+
+std::uint32_t voteWeight(const Eigen::Vector3f& n1, const Eigen::Vector3f& n2, double lambda,
+                         double v_min)
+{
+  const double weight = std::max(v_min, 1 - lambda * std::abs(static_cast<double>(n1.dot(n2))));
+  return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(weight * kVoteUnit)));
+}
+
+std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfModel& model,
+                                       const DetectorConfig& config, const Deadline& deadline)
+{
+  const PpfModelData& data = model.data();
+  const Matching matching{scene,
+                          data,
+                          model.symmetries(),
+                          config,
+                          FeatureQuantizer(data.parameters, data.diameter_m),
+                          NeighborSearch(scene.points)};
+  const auto references = static_cast<std::size_t>(
+      std::ceil(config.reference_share * static_cast<double>(scene.size())));
+  std::vector<std::vector<PoseHypothesis>> peaks(references);
+  const auto match = [&](std::size_t i)
+  {
+    if (deadline.passed()) return;
+    thread_local Accumulator accumulator;
+    const auto reference = static_cast<std::uint32_t>(i * scene.size() / references);
+    accumulator.reset(data.points.size(), static_cast<std::uint32_t>(config.model.n_angle));
+    castVotes(matching, reference, accumulator);
+    peaks[i] = findPeaks(matching, reference, accumulator);
+  };
+  parallelFor(config.threads, references, match);
+
+  std::vector<PoseHypothesis> hypotheses;
+  for (const auto& found : peaks)
+    hypotheses.insert(hypotheses.end(), found.begin(), found.end());
+  return hypotheses;
+}
+}  // namespace ppf_bin_picking

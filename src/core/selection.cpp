@@ -1,0 +1,58 @@
+#include "ppf_bin_picking/core/selection.hpp"
+
+#include <cstdint>
+#include <queue>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+struct Entry
+{
+  double balance;
+  std::size_t candidate;
+  std::size_t round;  ///< Number of poses taken when the balance was computed.
+
+  bool operator<(const Entry& other) const
+  {
+    return balance != other.balance ? balance < other.balance : candidate > other.candidate;
+  }
+};
+
+double freePixels(const PoseEvidence& evidence, const std::vector<std::uint8_t>& owned)
+{
+  std::size_t free = 0;
+  for (const std::uint32_t pixel : evidence.confirmed)
+    free += !owned[pixel];
+  return static_cast<double>(free);
+}
+}  // namespace
+
+std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidates,
+                                      std::size_t pixels)
+{
+  std::vector<std::uint8_t> owned(pixels, 0);
+  std::priority_queue<Entry> queue;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    queue.push({evidenceBalance(candidates[i], static_cast<double>(candidates[i].confirmed.size())),
+                i, 0});
+  std::vector<SelectedPose> selected;
+  while (!queue.empty() && queue.top().balance > 0)
+  {
+    const Entry best = queue.top();
+    queue.pop();
+    const PoseEvidence& evidence = candidates[best.candidate];
+    const double confirmed = freePixels(evidence, owned);
+    if (best.round <
+        selected.size())  // balances only fall: one that is up to date and on top is the best
+    {
+      queue.push({evidenceBalance(evidence, confirmed), best.candidate, selected.size()});
+      continue;
+    }
+    selected.push_back({best.candidate, confirmed});
+    for (const std::uint32_t pixel : evidence.confirmed)
+      owned[pixel] = 1;
+  }
+  return selected;
+}
+}  // namespace ppf_bin_picking

@@ -1,0 +1,167 @@
+#include "ppf_bin_picking/core/verification.hpp"
+
+#include "ppf_bin_picking/core/model_renderer.hpp"
+
+#include <cmath>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr int kEdgeReach_px = 3;         // how far beyond the outline the surface must have ended
+constexpr float kMinEdgeFacing = 0.25F;  // flatter surfaces cannot be continued beyond the outline
+constexpr double kMissingWeight = 0.4;   // of a contradiction
+constexpr double kEdgeWeight = 4.0;      // of a missing edge, in pixels of surface
+
+/// One pixel of the rendered part.
+struct ModelPixel
+{
+  Eigen::Vector3f ray;     ///< z = 1.
+  Eigen::Vector3f point;   ///< [m]
+  Eigen::Vector3f normal;  ///< Towards the camera.
+};
+
+class Comparison
+{
+public:
+  Comparison(const RangeImage& image, const RenderedPart& view, const DetectorConfig& config,
+             float diameter_m)
+      : image_(image),
+        view_(view),
+        gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
+        min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
+  {
+  }
+
+  PoseEvidence run()
+  {
+    for (int row = 0; row < view_.height; ++row)
+      for (int column = 0; column < view_.width; ++column)
+        if (view_.depthAt(column, row) > 0) comparePixel(column, row);
+    const auto count = static_cast<float>(evidence_.confirmed.size());
+    if (count > 0) evidence_.rms_error_m = std::sqrt(squared_error_ / count);
+    return std::move(evidence_);
+  }
+
+private:
+  ModelPixel modelPixel(int column, int row) const
+  {
+    ModelPixel pixel;
+    pixel.ray = image_.camera.ray(static_cast<float>(view_.left + column),
+                                  static_cast<float>(view_.top + row));
+    pixel.point = pixel.ray * view_.depthAt(column, row);
+    pixel.normal =
+        view_.normals[view_.triangle[static_cast<std::size_t>(row) * view_.width + column]];
+    if (pixel.normal.dot(pixel.ray) > 0) pixel.normal = -pixel.normal;
+    return pixel;
+  }
+
+  void comparePixel(int column, int row)
+  {
+    const std::size_t index = image_.index(view_.left + column, view_.top + row);
+    const float z = image_.depth[index];
+    if (z == 0)
+    {
+      ++evidence_.missing;
+      return;
+    }
+    const ModelPixel pixel = modelPixel(column, row);
+    const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
+    const float behind_m =
+        (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
+    if (behind_m < -gate_m_)
+    {
+      ++evidence_.occluded;
+      return;
+    }
+    if (behind_m > gate_m_)
+    {
+      ++evidence_.looked_through;
+      return;
+    }
+    const Eigen::Vector3f& normal = image_.normals[index];
+    if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
+    {
+      ++evidence_.wrong_normal;
+      return;
+    }
+    if (!image_.in_roi[index])
+    {
+      ++evidence_.outside;
+      return;
+    }
+    evidence_.confirmed.push_back(static_cast<std::uint32_t>(index));
+    squared_error_ += behind_m * behind_m;
+    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (endsTowards(column, row, du, dv)) compareOutline(pixel, column, row, du, dv);
+  }
+
+  /// True if the part ends, or falls off to a surface farther back, at the next pixel.
+  bool endsTowards(int column, int row, int du, int dv) const
+  {
+    const int c = column + du, r = row + dv;
+    if (c < 0 || r < 0 || c >= view_.width || r >= view_.height) return true;
+    const float beyond = view_.depthAt(c, r);
+    return beyond == 0;
+  }
+
+  /// Does the measured surface go on where the part's has ended?
+  void compareOutline(const ModelPixel& pixel, int column, int row, int du, int dv)
+  {
+    const int u = view_.left + column + kEdgeReach_px * du;
+    const int v = view_.top + row + kEdgeReach_px * dv;
+    if (u < 0 || v < 0 || u >= image_.camera.width || v >= image_.camera.height) return;
+    const float z = image_.depth[image_.index(u, v)];
+    const Eigen::Vector3f ray = image_.camera.ray(static_cast<float>(u), static_cast<float>(v));
+    const float facing = -pixel.normal.dot(ray) / ray.norm();
+    if (z == 0 || facing < kMinEdgeFacing) return;
+    const float behind_m = pixel.normal.dot(pixel.point - z * ray);
+    if (behind_m > gate_m_)
+      ++evidence_.edge_confirmed;
+    else if (behind_m > -gate_m_)
+    {
+      const Eigen::Vector3f& normal = image_.normals[image_.index(u, v)];
+      const bool goes_on = normal.isZero() || normal.dot(pixel.normal) >= min_normal_cosine_;
+      ++(goes_on ? evidence_.edge_missing : evidence_.edge_confirmed);
+    }
+  }
+
+  const RangeImage& image_;
+  const RenderedPart& view_;
+  float gate_m_;
+  float min_normal_cosine_;
+  PoseEvidence evidence_;
+  float squared_error_ = 0;
+};
+}  // namespace
+
+PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
+                            const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+{
+  thread_local RenderedPart view;
+  renderPart(model.data().mesh, T_camera_model, image.camera, view);
+  return Comparison(image, view, config, static_cast<float>(model.diameter())).run();
+}
+
+double poseScore(const PoseEvidence& evidence, double confirmed)
+{
+  const double against = evidence.looked_through + evidence.wrong_normal + evidence.outside +
+                         kMissingWeight * evidence.missing + kEdgeWeight * evidence.edge_missing +
+                         static_cast<double>(evidence.confirmed.size()) - confirmed;
+  return confirmed > 0 ? confirmed / (confirmed + against) : 0.0;
+}
+
+double evidenceBalance(const PoseEvidence& evidence, double confirmed)
+{
+  const double claimed_by_others = static_cast<double>(evidence.confirmed.size()) - confirmed;
+  return confirmed - 3.0 * evidence.looked_through - 3.6 * evidence.wrong_normal -
+         0.56 * evidence.missing - 0.3 * evidence.occluded - 1.0 * evidence.outside -
+         claimed_by_others - 10.0 * evidence.edge_missing + 3.0 * evidence.edge_confirmed;
+}
+
+double visibleFraction(const PoseEvidence& evidence)
+{
+  const double expected = evidence.expected();
+  return expected > 0 ? expected / (expected + evidence.occluded) : 0.0;
+}
+}  // namespace ppf_bin_picking
