@@ -1,0 +1,25 @@
+#include "ppf_bin_picking/sim/simulated_cell.hpp"
+
+namespace ppf_bin_picking
+{
+CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, int count,
+                      std::uint32_t seed)
+{
+  const Eigen::Isometry3d T_base_bin(Eigen::Translation3d(settings.bin_position_m));
+  const TriangleMesh bin = binMesh(settings.bin);
+  std::vector<PlacedMesh> meshes = {{&bin, T_base_bin}};
+  std::vector<Eigen::Isometry3d> T_base_parts;
+  for (const Eigen::Isometry3d& T_bin_part : fillBin(settings.bin, part, count, seed))
+  {
+    T_base_parts.push_back(T_base_bin * T_bin_part);
+    meshes.push_back({&part, T_base_parts.back()});
+  }
+  const RayCaster world(meshes);
+  CellShot shot;
+  shot.T_base_camera = lookAt(settings.camera_position_m, settings.camera_target_m);
+  const DepthView view = takeShot(world, settings.camera, shot.T_base_camera, settings.noise, seed);
+  shot.parts = partTruths(view, settings.camera, shot.T_base_camera, part, T_base_parts, 1);
+  shot.cloud_camera = view.cloud_camera;
+  return shot;
+}
+}  // namespace ppf_bin_picking
