@@ -21,6 +21,6 @@ function(add_integration_test name)
   target_link_libraries(${name} ${arg_UNPARSED_ARGUMENTS})
   if(arg_DATA)
     set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_integration_${name}.test
-      PROPERTIES LABELS data)
+                         PROPERTIES LABELS data)
   endif()
 endfunction()

@@ -6,7 +6,8 @@ pkg_check_modules(tbb REQUIRED IMPORTED_TARGET tbb)
 
 set(core_dir "${CMAKE_CURRENT_LIST_DIR}")
 
-add_library(${PROJECT_NAME}_core
+add_library(
+  ${PROJECT_NAME}_core
   ${core_dir}/candidate_search.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_result.cpp

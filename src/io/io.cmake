@@ -7,7 +7,8 @@ find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)
 
 set(io_dir "${CMAKE_CURRENT_LIST_DIR}")
-add_library(${PROJECT_NAME}_io
+add_library(
+  ${PROJECT_NAME}_io
   ${io_dir}/config_io.cpp
   ${io_dir}/file_bytes.cpp
   ${io_dir}/key_check.cpp
@@ -18,12 +19,16 @@ add_library(${PROJECT_NAME}_io
   ${io_dir}/stl_tidy.cpp
   ${io_dir}/surface.cpp
   ${io_dir}/yaml_map.cpp)
-target_include_directories(${PROJECT_NAME}_io
-  PUBLIC "${io_dir}/../../include"
-  PRIVATE ${io_dir})
-target_include_directories(${PROJECT_NAME}_io SYSTEM PRIVATE
-  ${PCL_INCLUDE_DIRS} ${OpenCV_INCLUDE_DIRS})
-target_link_libraries(${PROJECT_NAME}_io
+target_include_directories(${PROJECT_NAME}_io PUBLIC "${io_dir}/../../include" PRIVATE ${io_dir})
+target_include_directories(${PROJECT_NAME}_io SYSTEM PRIVATE ${PCL_INCLUDE_DIRS}
+                                                             ${OpenCV_INCLUDE_DIRS})
+target_link_libraries(
+  ${PROJECT_NAME}_io
   PUBLIC ${PROJECT_NAME}_core yaml-cpp
-  PRIVATE assimp::assimp nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs
-    pcl_common pcl_io ZLIB::ZLIB)
+  PRIVATE assimp::assimp
+          nlohmann_json::nlohmann_json
+          opencv_core
+          opencv_imgcodecs
+          pcl_common
+          pcl_io
+          ZLIB::ZLIB)
