@@ -45,7 +45,7 @@ def bracket(p):
     ear = cylinder(p, (-31, 9, 42), 0, 11, 13, 2)
     boss = cylinder(p, (17, -4, 9), 2, 11, 18, 2)
     x, z = p[..., 0], p[..., 2]
-    slope = (x + 0.9 * z - 4) / np.sqrt(1 + 0.9 ** 2)
+    slope = (x + 0.9 * z - 4) / np.sqrt(1 + 0.9**2)
     rib = np.maximum(box(p, (-14, -9, 15), (34, 6, 30), 1), slope)
     body = blend(blend(blend(foot, upright, 5), ear, 5), boss, 4)
     body = blend(body, rib, 3)
