@@ -9,12 +9,19 @@ find_package(ZLIB REQUIRED)
 set(io_dir "${CMAKE_CURRENT_LIST_DIR}")
 add_library(
   ${PROJECT_NAME}_io
+  ${io_dir}/cloud_check.cpp
+  ${io_dir}/cloud_header.cpp
+  ${io_dir}/cloud_io.cpp
   ${io_dir}/config_io.cpp
+  ${io_dir}/depth_io.cpp
   ${io_dir}/file_bytes.cpp
   ${io_dir}/key_check.cpp
   ${io_dir}/length_unit.cpp
   ${io_dir}/mesh_io.cpp
+  ${io_dir}/model_io.cpp
   ${io_dir}/part_io.cpp
+  ${io_dir}/png_check.cpp
+  ${io_dir}/result_io.cpp
   ${io_dir}/rigid_pose.cpp
   ${io_dir}/stl_tidy.cpp
   ${io_dir}/surface.cpp

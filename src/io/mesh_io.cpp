@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 
+#include "cloud_header.hpp"
 #include "stl_tidy.hpp"
 #include "surface.hpp"
 
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <sstream>
 
 namespace ppf_bin_picking
 {
@@ -40,21 +40,6 @@ std::string lowerCase(std::string text)
   return text;
 }
 
-/// The number of faces that a PLY header announces; 0 if it says nothing.
-std::size_t announcedFaces(const std::string& ply)
-{
-  std::istringstream header(ply.substr(0, std::min(ply.find("end_header"), ply.size())));
-  for (std::string line; std::getline(header, line);)
-  {
-    std::istringstream words(line);
-    std::string element;
-    std::string face;
-    std::size_t count = 0;
-    if (words >> element >> face >> count && element == "element" && face == "face") return count;
-  }
-  return 0;
-}
-
 MeshFile readMeshFile(const std::string& path)
 {
   MeshFile file;
@@ -63,7 +48,7 @@ MeshFile readMeshFile(const std::string& path)
   if (file.format != "stl" && file.format != "obj" && file.format != "ply")
     throw InputError(path + " is no mesh file by its name: give an .stl, .obj or .ply file");
   file.bytes = readFile(path, kMaxMeshBytes);
-  if (file.format == "ply") file.facets = announcedFaces(file.bytes);
+  if (file.format == "ply") file.facets = plyElements(file.bytes, "face");
   if (file.format != "stl") return file;
   TidyStl tidy = tidyStl(file.bytes);
   return {std::move(tidy.bytes), "stl", tidy.facets, std::move(tidy.oddities), tidy.loss};
