@@ -2,12 +2,12 @@
 
 #include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
-#include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstring>
-#include <type_traits>
+#include <vector>
 
 #if !defined(__BYTE_ORDER__) || __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "model files are little-endian: add the byte swaps before building for this machine"
@@ -138,12 +138,6 @@ std::string damageOf(const std::string& bytes)
   return {};
 }
 
-std::string inWords(const ModelParameters& parameters)
-{
-  return "step_rel " + plainDecimal(parameters.step_rel) + " and n_angle " +
-         std::to_string(parameters.n_angle);
-}
-
 bool same(const SymmetryAxis& a, const SymmetryAxis& b)
 {
   return a.axis == b.axis && a.point == b.point;
@@ -195,8 +189,7 @@ ModelFile loadModel(const std::string& path)
   }
 }
 
-void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_t mesh_checksum,
-                const ModelParameters& parameters)
+void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_t mesh_checksum)
 {
   if (file.mesh_checksum != mesh_checksum)
     throw InputError(file.path + " was trained from another mesh than " + part.mesh_file +
@@ -204,9 +197,5 @@ void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_
   if (!sameSymmetries(file.model.data(), part))
     throw InputError(file.path + " was trained with other symmetries than " + part.source +
                      " states: train the model again");
-  if (!(file.model.parameters() == parameters))
-    throw InputError(file.path + " was trained with " + inWords(file.model.parameters()) +
-                     ", but the configuration says " + inWords(parameters) +
-                     ": train the model again or change the configuration");
 }
 }  // namespace ppf_bin_picking

@@ -32,10 +32,9 @@ void saveModel(const std::string& path, const PpfModel& model, std::uint32_t mes
 ///        another version.
 ModelFile loadModel(const std::string& path);
 
-/// Checks that a file's model is the one that training would give now.
+/// Checks that a file's model was trained from the part as it is described now. (Its parameters are
+/// modelProblem()'s matter.)
 /// @param mesh_checksum  meshChecksum() of the part's mesh.
-/// @throw InputError if it was trained from another mesh or unit, or with other symmetries or
-///        parameters.
-void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_t mesh_checksum,
-                const ModelParameters& parameters);
+/// @throw InputError if it was trained from another mesh or unit, or with other symmetries.
+void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_t mesh_checksum);
 }  // namespace ppf_bin_picking

@@ -1,0 +1,86 @@
+/// @file detect_poses: part and cloud in, poses out.
+#include "ppf_bin_picking/core/detector.hpp"
+
+#include "ppf_bin_picking/io/file_bytes.hpp"
+#include "ppf_bin_picking/io/input_error.hpp"
+#include "ppf_bin_picking/io/model_io.hpp"
+#include "ppf_bin_picking/io/result_io.hpp"
+
+#include "tool_support.hpp"
+
+#include <chrono>
+#include <iomanip>
+#include <sstream>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+struct Options
+{
+  PartOptions part;
+  SceneOptions scene;
+  std::string model;
+  int threads = -1;  ///< -1: as the configuration says.
+  std::string output;
+};
+
+/// The model file's content, or a model trained now and the seconds it took.
+PpfModel modelFor(const ToolPart& part, const Options& options, double& train_seconds)
+{
+  if (!options.model.empty())
+  {
+    ModelFile file = loadModel(options.model);
+    requireFit(file, part.description, part.mesh_checksum);
+    const std::string problem = modelProblem(file.model, part.config, std::nullopt);
+    if (!problem.empty()) throw InputError(options.model + ": " + problem);
+    return std::move(file.model);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  PpfModel model = trainedModel(part);
+  train_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return model;
+}
+
+void reportTimes(const DetectionResult& result)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  for (const StageTime& stage : result.stages)
+    text << std::setw(9) << stage.seconds * 1000 << " ms  " << stage.name << "\n";
+  text << std::setw(9) << result.seconds * 1000 << " ms  in all";
+  report(text.str());
+}
+
+void detectPoses(const Options& options)
+{
+  ToolPart part = options.part.load();
+  if (options.threads >= 0) part.config.threads = options.threads;
+  const Detector detector(part.config);
+  const Scene scene = options.scene.load(static_cast<std::size_t>(part.config.max_points));
+  ResultFile file;
+  file.frame_id = scene.frame_id;
+  const PpfModel model = modelFor(part, options, file.train_seconds);
+  file.result = detector.detect(scene.cloud, model, scene.roi);
+  if (file.result.status == DetectionStatus::kBadCloud) throw InputError(file.result.message);
+  writeFile(options.output, toJson(file));
+  reportTimes(file.result);
+  report(file.result.message);
+}
+}  // namespace
+}  // namespace ppf_bin_picking
+
+int main(int argc, char** argv)
+{
+  using namespace ppf_bin_picking;
+  CLI::App app("Finds a part in one cloud and writes its poses.", "detect_poses");
+  Options options;
+  options.part.add(app);
+  app.add_option("--model", options.model, "Model of train_model; without it the part is trained");
+  options.scene.add(app);
+  app.add_option("--threads", options.threads,
+                 "Threads instead of the configuration's; 0: one per core")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--output", options.output, "Result to write, .json")->required();
+  return runTool(app, argc, argv, [&] { detectPoses(options); });
+}

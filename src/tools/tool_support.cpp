@@ -1,0 +1,124 @@
+#include "tool_support.hpp"
+
+#include "ppf_bin_picking/io/cloud_io.hpp"
+#include "ppf_bin_picking/io/config_io.hpp"
+#include "ppf_bin_picking/io/depth_io.hpp"
+#include "ppf_bin_picking/io/input_error.hpp"
+#include "ppf_bin_picking/io/mesh_io.hpp"
+
+#include <chrono>
+#include <iostream>
+#include <sstream>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr int kBadInput = 2;
+constexpr int kDefect = 1;
+
+int failed(const CLI::App& app, const std::string& sentence, int status)
+{
+  std::cerr << app.get_name() << ": " << sentence << "\n";
+  return status;
+}
+}  // namespace
+
+int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& tool)
+{
+  try
+  {
+    app.parse(argc, argv);
+    tool();
+    return 0;
+  }
+  catch (const CLI::ParseError& error)
+  {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    return failed(app, std::string(error.what()) + ": see --help", kBadInput);
+  }
+  catch (const InputError& error)
+  {
+    return failed(app, error.what(), kBadInput);
+  }
+  catch (const std::invalid_argument& error)  // the core's word for input that it cannot use
+  {
+    return failed(app, error.what(), kBadInput);
+  }
+  catch (const std::exception& error)
+  {
+    return failed(app, std::string("internal error: ") + error.what(), kDefect);
+  }
+}
+
+void report(const std::string& line)
+{
+  std::cerr << line << "\n";
+}
+
+void PartOptions::add(CLI::App& app)
+{
+  app.add_option("--part", part, "Part file: mesh, unit, symmetries")->required();
+  app.add_option("--config", config, "Settings; what it leaves out has its default");
+}
+
+ToolPart PartOptions::load() const
+{
+  ToolPart loaded;
+  loaded.description = loadPart(part);
+  loaded.config = config.empty() ? DetectorConfig() : loadDetectorConfig(config);
+  if (!loaded.description.detector.IsNull())
+    loaded.config = withSettings(loaded.config, loaded.description.detector, part + ": detector");
+  LoadedMesh mesh = loadMesh(loaded.description.mesh_file, loaded.description.unit);
+  for (const std::string& warning : mesh.warnings)
+    report("warning: " + warning);
+  loaded.mesh_checksum = meshChecksum(mesh.mesh);
+  loaded.mesh = std::move(mesh.mesh);
+  return loaded;
+}
+
+PpfModel trainedModel(const ToolPart& part)
+{
+  PpfModel model = PpfModel::train(part.mesh, part.description.symmetries(), part.config.model);
+  std::ostringstream line;
+  line << "trained " << part.description.model_id << ": diameter " << model.diameter() << " m, "
+       << model.data().points.size() << " points, " << model.data().entries.size() << " pairs";
+  report(line.str());
+  return model;
+}
+
+void SceneOptions::add(CLI::App& app)
+{
+  CLI::Option* cloud_option =
+      app.add_option("--cloud", cloud, "Cloud in the camera's optical frame, .pcd or .ply");
+  app.add_option("--cloud-unit", cloud_unit, "Unit of the cloud: m (default) or mm")
+      ->needs(cloud_option);
+  CLI::Option* depth_option =
+      app.add_option("--depth", depth, "16-bit depth image, .png")->excludes(cloud_option);
+  CLI::Option* camera_option =
+      app.add_option("--camera", camera, "Camera of the depth image, .yaml")->needs(depth_option);
+  depth_option->needs(camera_option);
+  app.add_option("--roi", roi, "Region of interest, .yaml; without it everywhere");
+}
+
+Scene SceneOptions::load(std::size_t max_points) const
+{
+  Scene scene;
+  if (!roi.empty()) scene.roi = loadRegion(roi);
+  if (!depth.empty())
+  {
+    const DepthCamera depth_camera = loadDepthCamera(camera);
+    scene.cloud = loadDepthCloud(depth, depth_camera, max_points);
+    scene.frame_id = depth_camera.frame_id;
+    scene.camera = depth_camera.pinhole;
+    return scene;
+  }
+  if (cloud.empty()) throw InputError("no scene given: add --cloud, or --depth with --camera");
+  LoadedCloud loaded =
+      loadCloud(cloud, lengthUnitFromString(cloud_unit, "--cloud-unit"), max_points);
+  for (const std::string& warning : loaded.warnings)
+    report("warning: " + warning);
+  scene.cloud = std::move(loaded.cloud);
+  return scene;
+}
+}  // namespace ppf_bin_picking
