@@ -22,7 +22,7 @@ source_ros()
   set -u
 }
 
-# build_package: configures once, then builds the package and its tests into build/.
+# build_package TARGET...: configures once, then builds the targets into build/.
 build_package()
 {
   if [ -f /opt/ros/noetic/setup.bash ]; then source_ros /opt/ros/noetic/setup.bash; fi
@@ -32,16 +32,25 @@ build_package()
     cmake -S . -B build -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" \
       -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3
   fi
-  cmake --build build --parallel "$(nproc)" --target all tests
+  cmake --build build --parallel "$(nproc)" --target "$@"
 }
 
-# use_package: makes rosrun and roslaunch find the build, with logs and a ROS master of its own.
+# use_package FOLDER: makes rosrun and roslaunch find the devel or install space, with logs in build/ros_home
+# and a ROS master of its own.
 use_package()
 {
-  source_ros build/devel/setup.bash
-  export ROS_HOME=$PWD/build/ros_home
+  source_ros "$1/setup.bash"
+  export ROS_HOME=$PWD/build/ros_home ROS_HOSTNAME=localhost
   ROS_MASTER_URI=http://localhost:$(free_port)
   export ROS_MASTER_URI
+}
+
+# run_demo ARGUMENT...: launches the demo of the package in use. roslaunch hides how its processes ended,
+# so its output tells.
+run_demo()
+{
+  roslaunch ppf_bin_picking demo.launch "$@" 2>&1 | tee build/demo.log
+  if grep -q 'exit code' build/demo.log; then fail "The demo failed: see build/demo.log."; fi
 }
 
 # free_port: a TCP port that nothing listens on.
