@@ -57,14 +57,14 @@ Eigen::Vector3f fitNormal(const RangeImage& image, int u0, int v0, int radius_px
 void estimateImageNormals(RangeImage& image, int radius_px, float depth_gate_m, int threads)
 {
   image.normals.assign(image.depth.size(), Eigen::Vector3f::Zero());
-  const auto fitRow = [&](std::size_t row)
+  const auto fit_row = [&](std::size_t row)
   {
     const int v = static_cast<int>(row);
     for (int u = 0; u < image.camera.width; ++u)
       if (image.depth[image.index(u, v)] > 0)
         image.normals[image.index(u, v)] = fitNormal(image, u, v, radius_px, depth_gate_m);
   };
-  parallelFor(threads, static_cast<std::size_t>(image.camera.height), fitRow);
+  parallelFor(threads, static_cast<std::size_t>(image.camera.height), fit_row);
 }
 
 std::vector<Eigen::Vector3f> estimatePointNormals(const std::vector<Eigen::Vector3f>& points,
