@@ -12,7 +12,7 @@ std::vector<std::int32_t> dbscan(const std::vector<Eigen::Vector3f>& points, flo
   std::vector<std::uint8_t> visited(points.size(), 0);
   std::vector<std::uint32_t> near, frontier;
   std::int32_t cluster = 0;
-  const auto expandCorePoint = [&]
+  const auto expand_core_point = [&]
   {
     for (const std::uint32_t neighbor : near)
     {
@@ -27,13 +27,13 @@ std::vector<std::int32_t> dbscan(const std::vector<Eigen::Vector3f>& points, flo
     if (visited[seed]) continue;
     search.within(points[seed], eps_m, near);
     if (near.size() < minpts) continue;  // noise, unless a core point found later reaches it
-    expandCorePoint();
+    expand_core_point();
     while (!frontier.empty())
     {
       const std::uint32_t point = frontier.back();
       frontier.pop_back();
       search.within(points[point], eps_m, near);
-      if (near.size() >= minpts) expandCorePoint();
+      if (near.size() >= minpts) expand_core_point();
     }
     ++cluster;
   }

@@ -196,7 +196,7 @@ void addToPile(HeightMap& pile, const TurnedPart& part, const Place& place)
 TriangleMesh binMesh(const Bin& bin)
 {
   TriangleMesh mesh;
-  const auto addBox = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high)
+  const auto add_box = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high)
   {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int corner = 0; corner < 8; ++corner)
@@ -213,11 +213,11 @@ TriangleMesh binMesh(const Bin& bin)
     }
   };
   const double x = bin.size_m.x() / 2, y = bin.size_m.y() / 2, z = bin.size_m.z(), w = bin.wall_m;
-  addBox({-x - w, -y - w, -w}, {x + w, y + w, 0});
-  addBox({-x - w, -y - w, 0}, {-x, y + w, z});
-  addBox({x, -y - w, 0}, {x + w, y + w, z});
-  addBox({-x, -y - w, 0}, {x, -y, z});
-  addBox({-x, y, 0}, {x, y + w, z});
+  add_box({-x - w, -y - w, -w}, {x + w, y + w, 0});
+  add_box({-x - w, -y - w, 0}, {-x, y + w, z});
+  add_box({x, -y - w, 0}, {x + w, y + w, z});
+  add_box({-x, -y - w, 0}, {x, -y, z});
+  add_box({-x, y, 0}, {x, y + w, z});
   return mesh;
 }
 

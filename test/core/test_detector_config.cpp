@@ -35,14 +35,14 @@ TEST(DetectorConfig, isBrokenByAnyWildNumber)
   const auto spoil = [&](const char* name, auto&)
   {
     DetectorConfig config;
-    const auto spoilOne = [&](const char* other, auto& field)
+    const auto spoil_one = [&](const char* other, auto& field)
     {
       using Field = std::decay_t<decltype(field)>;
       if (std::string(other) != name) return;
       if constexpr (std::is_same_v<Field, double>) field = std::numeric_limits<double>::quiet_NaN();
       if constexpr (std::is_same_v<Field, int>) field = -1;
     };
-    visitFields(config, spoilOne);
+    visitFields(config, spoil_one);
     names.insert(name);
     const std::string wanted(name);
     if (wanted == "clustering" || wanted == "use_cloud_normals" || wanted == "mismatch_test")
