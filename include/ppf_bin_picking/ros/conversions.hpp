@@ -1,0 +1,33 @@
+/// @file ROS messages to and from the types of the core.
+#pragma once
+
+#include "ppf_bin_picking/core/detector_config.hpp"
+#include "ppf_bin_picking/core/point_cloud.hpp"
+
+#include <Eigen/Geometry>
+
+#include <geometry_msgs/PoseWithCovariance.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <string>
+
+namespace ppf_bin_picking_ros
+{
+/// Checks everything the conversion relies on: frame, byte order, fields and their types, steps,
+/// length of the data, number of points. Looks at no point.
+/// @return Empty if the cloud is usable, otherwise one sentence that names the field and the
+/// remedy.
+std::string cloudProblem(const sensor_msgs::PointCloud2& cloud,
+                         const ppf_bin_picking::DetectorConfig& config);
+
+/// Copies the points, and the normals if config.use_cloud_normals is set and the cloud has them.
+/// Fields may stand in any order and with any padding. Non-finite points stay as they are.
+/// @return Points in the message's frame [m].
+/// @throw std::invalid_argument with the sentence of cloudProblem.
+ppf_bin_picking::PointCloud toPointCloud(const sensor_msgs::PointCloud2& cloud,
+                                         const ppf_bin_picking::DetectorConfig& config);
+
+/// A pose whose covariance is unknown: -1 in its first entry, 0 in the others.
+/// @param T_frame_model  [m]
+geometry_msgs::PoseWithCovariance toPoseOfUnknownCovariance(const Eigen::Isometry3d& T_frame_model);
+}  // namespace ppf_bin_picking_ros

@@ -1,0 +1,189 @@
+#include "ppf_bin_picking/ros/request_steps.hpp"
+
+#include "ppf_bin_picking/core/detector.hpp"
+
+#include "ppf_bin_picking/ros/conversions.hpp"
+#include "ppf_bin_picking/ros/request_failed.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace ppf_bin_picking_ros
+{
+namespace
+{
+using ppf_bin_picking::DetectedPose;
+using ppf_bin_picking::DetectionResult;
+using ppf_bin_picking::DetectionStatus;
+using ppf_bin_picking::Detector;
+
+using Indices = std::vector<std::uint32_t>;
+using Roi = std::optional<ppf_bin_picking::RegionOfInterest>;
+
+/// Parts with the same settings.
+std::vector<Indices> groupsOfEqualSettings(const std::vector<LoadedPartPtr>& parts)
+{
+  std::map<std::string, std::size_t> group_of_settings;
+  std::vector<Indices> groups;
+  for (std::uint32_t i = 0; i < parts.size(); ++i)
+  {
+    const std::string settings = ppf_bin_picking::toYaml(parts[i]->config);
+    const auto [group, is_new] = group_of_settings.insert({settings, groups.size()});
+    if (is_new) groups.emplace_back();
+    groups[group->second].push_back(i);
+  }
+  return groups;
+}
+
+DetectionResult detectGroup(const ppf_bin_picking::PointCloud& cloud,
+                            const std::vector<LoadedPartPtr>& parts, const Indices& group,
+                            const Roi& roi)
+{
+  std::vector<const ppf_bin_picking::PpfModel*> models;
+  for (const std::uint32_t index : group)
+    models.push_back(&parts[index]->model);
+  DetectionResult result = Detector(parts[group.front()]->config).detect(cloud, models, roi);
+  for (auto& pose : result.poses)
+    pose.model = group[pose.model];
+  for (auto& region : result.regions)
+    region.model = group[region.model];
+  for (auto& cluster : result.clusters)
+    cluster.model = group[cluster.model];
+  for (auto& hypothesis : result.distribution)
+    hypothesis.model = group[hypothesis.model];
+  return result;
+}
+
+template <class Element>
+void append(std::vector<Element>& to, std::vector<Element>& from)
+{
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+/// What tells more about the whole: a time limit, then poses, then points.
+int weight(const DetectionStatus status)
+{
+  const auto order = {DetectionStatus::kBadCloud, DetectionStatus::kRoiEmpty,
+                      DetectionStatus::kNoPickablePose, DetectionStatus::kOk,
+                      DetectionStatus::kTimeLimit};
+  return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
+}
+
+void merge(DetectionResult& all, DetectionResult&& next)
+{
+  const auto clusters_before = static_cast<std::int32_t>(all.clusters.size());
+  const auto shift = [&](std::int32_t& cluster)
+  { cluster = cluster < 0 ? cluster : cluster + clusters_before; };
+  for (DetectedPose& pose : next.poses)
+    shift(pose.cluster);
+  for (auto& hypothesis : next.distribution)
+    shift(hypothesis.cluster);
+  append(all.poses, next.poses);
+  append(all.regions, next.regions);
+  append(all.distribution, next.distribution);
+  append(all.clusters, next.clusters);
+  append(all.stages, next.stages);
+  all.seconds += next.seconds;
+  if (weight(next.status) > weight(all.status))
+    all.status = next.status, all.message = next.message;
+  const auto rank = [](const DetectedPose& a, const DetectedPose& b)
+  { return std::make_pair(a.reliable, a.score) > std::make_pair(b.reliable, b.score); };
+  std::stable_sort(all.poses.begin(), all.poses.end(), rank);
+  std::stable_sort(all.regions.begin(), all.regions.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+}
+}  // namespace
+
+void checkRequest(const Request& request)
+{
+  const auto refuse = [](const std::string& sentence)
+  { throw RequestFailed(Response::BAD_REQUEST, sentence); };
+  if (request.acquisition != Request::LATEST && request.acquisition != Request::NEXT)
+    refuse("acquisition is " + std::to_string(request.acquisition) +
+           ": give LATEST (0) or NEXT (1)");
+  if (request.timeout < ros::Duration(0))
+    refuse("timeout is negative: give seconds, or 0 for ~timeout_s");
+  if (request.max_age < ros::Duration(0))
+    refuse("max_age is negative: give seconds, or 0 for any age");
+}
+
+void checkAge(const Request& request, const ros::Time& stamp, const ros::Time& now)
+{
+  if (request.max_age.isZero()) return;
+  if (stamp.isZero())
+    throw RequestFailed(Response::CLOUD_TOO_OLD,
+                        "The newest cloud has no stamp, so its age is unknown: let the camera's "
+                        "driver stamp its clouds, or ask without max_age");
+  const double age_s = now.toSec() - stamp.toSec();
+  if (age_s <= request.max_age.toSec()) return;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << "The newest cloud is " << age_s
+       << " s old, max_age is " << request.max_age.toSec()
+       << " s: check the camera, or ask for the NEXT cloud";
+  throw RequestFailed(Response::CLOUD_TOO_OLD, text.str());
+}
+
+ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
+                                      const std::vector<LoadedPartPtr>& parts)
+{
+  ppf_bin_picking::DetectorConfig config = parts.front()->config;
+  for (const LoadedPartPtr& part : parts)
+  {
+    config.use_cloud_normals |= part->config.use_cloud_normals;
+    config.max_points = std::max(config.max_points, part->config.max_points);
+  }
+  const std::string problem = cloudProblem(cloud, config);
+  if (!problem.empty()) throw RequestFailed(Response::BAD_CLOUD, problem);
+  ppf_bin_picking::PointCloud points = toPointCloud(cloud, config);
+  if (std::none_of(points.points.begin(), points.points.end(),
+                   [](const Eigen::Vector3f& point) { return point.allFinite(); }))
+    throw RequestFailed(Response::BAD_CLOUD,
+                        "None of the cloud's " + std::to_string(points.size()) +
+                            " points is measured (all are NaN or infinite): check the camera's "
+                            "view and exposure");
+  return points;
+}
+
+DetectionResult detectParts(const ppf_bin_picking::PointCloud& cloud_camera,
+                            const std::vector<LoadedPartPtr>& parts, const Roi& roi)
+{
+  std::optional<DetectionResult> all;
+  for (const Indices& group : groupsOfEqualSettings(parts))
+  {
+    DetectionResult result = detectGroup(cloud_camera, parts, group, roi);
+    if (result.status == DetectionStatus::kBadCloud)
+      throw RequestFailed(Response::BAD_CLOUD, result.message);
+    if (all)
+      merge(*all, std::move(result));
+    else
+      all = std::move(result);
+  }
+  return *all;
+}
+
+std::int16_t toStatus(const DetectionStatus status)
+{
+  switch (status)
+  {
+    case DetectionStatus::kOk:
+      return Response::OK;
+    case DetectionStatus::kNoPickablePose:
+      return Response::NO_PICKABLE_POSE;
+    case DetectionStatus::kRoiEmpty:
+      return Response::ROI_EMPTY;
+    case DetectionStatus::kTimeLimit:
+      return Response::TIME_LIMIT;
+    case DetectionStatus::kBadCloud:
+      return Response::BAD_CLOUD;
+  }
+  return Response::INTERNAL_ERROR;
+}
+
+ros::Duration limitedDifference(const ros::Time& later, const ros::Time& earlier)
+{
+  constexpr double kLimit_s = 2e9;
+  return ros::Duration(std::clamp(later.toSec() - earlier.toSec(), -kLimit_s, kLimit_s));
+}
+}  // namespace ppf_bin_picking_ros

@@ -1,0 +1,111 @@
+#include "ppf_bin_picking/ros/clock_watch.hpp"
+#include "ppf_bin_picking/ros/cloud_keeper.hpp"
+
+#include <boost/make_shared.hpp>
+#include <gtest/gtest.h>
+
+#include <future>
+
+namespace ppf_bin_picking_ros
+{
+namespace
+{
+constexpr double kLong_s = 30.0;  // ends only a test that fails
+
+sensor_msgs::PointCloud2ConstPtr cloudAt(const double stamp_s)
+{
+  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
+  cloud->header.stamp = ros::Time(stamp_s);
+  return cloud;
+}
+
+/// Starts a wait in a thread of its own.
+std::future<sensor_msgs::PointCloud2ConstPtr> waitFor(const CloudKeeper& keeper,
+                                                      const double after_s)
+{
+  return std::async(std::launch::async, [&keeper, after_s]
+                    { return keeper.waitForNext(ros::Time(after_s), steadyDeadline(kLong_s)); });
+}
+
+TEST(CloudKeeper, givesTheNewestReceived)
+{
+  CloudKeeper keeper;
+  EXPECT_FALSE(keeper.newest());
+  EXPECT_FALSE(keeper.secondsSinceLast());
+  keeper.keep(cloudAt(2));
+  keeper.keep(cloudAt(1));
+  EXPECT_EQ(keeper.newest()->header.stamp, ros::Time(1));
+  EXPECT_EQ(keeper.received(), 2U);
+  EXPECT_LT(*keeper.secondsSinceLast(), kLong_s);
+}
+
+TEST(CloudKeeper, waitsForALaterStamp)
+{
+  CloudKeeper keeper;
+  keeper.keep(cloudAt(5));
+  auto next = waitFor(keeper, 5);
+  keeper.keep(cloudAt(4));
+  keeper.keep(cloudAt(6));
+  EXPECT_EQ(next.get()->header.stamp, ros::Time(6));
+}
+
+TEST(CloudKeeper, givesUpAtTheDeadline)
+{
+  CloudKeeper keeper;
+  keeper.keep(cloudAt(5));
+  EXPECT_FALSE(keeper.waitForNext(ros::Time(5), steadyDeadline(0.01)));
+}
+
+TEST(CloudKeeper, takesAnyCloudAfterTheClockJumpedBack)
+{
+  CloudKeeper keeper;
+  std::atomic<bool> done{false};
+  auto next = waitFor(keeper, 100);
+  // The wait may begin before or after any of these; in the end a pair of both comes after it.
+  auto feeder = std::async(std::launch::async,
+                           [&]
+                           {
+                             while (!done)
+                             {
+                               keeper.drop();
+                               keeper.keep(cloudAt(1));
+                             }
+                           });
+  EXPECT_EQ(next.get()->header.stamp, ros::Time(1));
+  done = true;
+}
+
+TEST(CloudKeeper, forgetsTheCloudWhenDropped)
+{
+  CloudKeeper keeper;
+  keeper.keep(cloudAt(1));
+  keeper.drop();
+  EXPECT_FALSE(keeper.newest());
+}
+
+TEST(CloudKeeper, endsAllWaitsWhenStopped)
+{
+  CloudKeeper keeper;
+  auto first = waitFor(keeper, 0);
+  auto second = waitFor(keeper, 0);
+  keeper.stop();
+  EXPECT_FALSE(first.get());
+  EXPECT_FALSE(second.get());
+  keeper.keep(cloudAt(9));
+  EXPECT_FALSE(keeper.waitForNext(ros::Time(1), steadyDeadline(kLong_s)));
+}
+
+TEST(ClockWatch, tellsEachJumpBackOnce)
+{
+  ClockWatch watch;
+  const auto jumpsAt = [&](const double now_s)
+  { return watch.jumpedBack([&] { return ros::Time(now_s); }); };
+  EXPECT_FALSE(jumpsAt(10));
+  EXPECT_FALSE(jumpsAt(11));
+  EXPECT_FALSE(jumpsAt(10.95));  // a correction of the clock
+  EXPECT_TRUE(jumpsAt(2));
+  EXPECT_FALSE(jumpsAt(2));
+  EXPECT_FALSE(jumpsAt(3));
+}
+}  // namespace
+}  // namespace ppf_bin_picking_ros

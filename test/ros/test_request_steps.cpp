@@ -1,0 +1,75 @@
+#include "ppf_bin_picking/ros/request_failed.hpp"
+#include "ppf_bin_picking/ros/request_steps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace ppf_bin_picking_ros
+{
+namespace
+{
+/// Status of the failure; OK if there was none.
+template <class Step>
+std::int16_t statusOf(const Step& step)
+{
+  try
+  {
+    step();
+  }
+  catch (const RequestFailed& failure)
+  {
+    EXPECT_GT(std::string(failure.what()).size(), 20U);
+    return failure.status();
+  }
+  return Response::OK;
+}
+
+TEST(CheckRequest, refusesWhatIsOutOfRange)
+{
+  Request request;
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::OK);
+  request.acquisition = 2;
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);
+  request = {};
+  request.timeout = ros::Duration(-0.1);
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);
+  request = {};
+  request.max_age = ros::Duration(-1.0);
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);
+}
+
+TEST(CheckAge, countsOnTheRosClock)
+{
+  Request request;
+  const ros::Time now(100);
+  const auto status = [&](const ros::Time& stamp)
+  { return statusOf([&] { checkAge(request, stamp, now); }); };
+  EXPECT_EQ(status(ros::Time(1)), +Response::OK);  // no limit
+  request.max_age = ros::Duration(5.0);
+  EXPECT_EQ(status(ros::Time(95)), +Response::OK);
+  EXPECT_EQ(status(ros::Time(94.9)), +Response::CLOUD_TOO_OLD);
+  EXPECT_EQ(status(ros::Time(101)), +Response::OK);
+  EXPECT_EQ(status(ros::Time()), +Response::CLOUD_TOO_OLD);  // no stamp
+}
+
+TEST(LimitedDifference, standsAnyStamp)
+{
+  const ros::Time late(0xFFFFFFFF, 0);
+  EXPECT_EQ(limitedDifference(ros::Time(5.5), ros::Time(3.0)), ros::Duration(2.5));
+  EXPECT_EQ(limitedDifference(late, ros::Time()), ros::Duration(2e9));
+  EXPECT_EQ(limitedDifference(ros::Time(), late), ros::Duration(-2e9));
+}
+
+TEST(ToStatus, hasAConstantForEachEnd)
+{
+  using ppf_bin_picking::DetectionStatus;
+  EXPECT_EQ(toStatus(DetectionStatus::kOk), +Response::OK);
+  EXPECT_EQ(toStatus(DetectionStatus::kNoPickablePose), +Response::NO_PICKABLE_POSE);
+  EXPECT_EQ(toStatus(DetectionStatus::kRoiEmpty), +Response::ROI_EMPTY);
+  EXPECT_EQ(toStatus(DetectionStatus::kTimeLimit), +Response::TIME_LIMIT);
+  EXPECT_EQ(toStatus(DetectionStatus::kBadCloud), +Response::BAD_CLOUD);
+}
+}  // namespace
+}  // namespace ppf_bin_picking_ros
