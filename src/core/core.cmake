@@ -17,6 +17,7 @@ add_library(
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
   ${core_dir}/normals.cpp
+  ${core_dir}/outline.cpp
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
   ${core_dir}/pose_clustering.cpp

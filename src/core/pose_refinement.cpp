@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/outline.hpp"
 
 #include <Eigen/Dense>
 
@@ -14,6 +15,11 @@ namespace
 {
 constexpr int kStepsPerView = 4;  // the visible surface is rendered anew after so many steps
 constexpr std::size_t kSurfacePoints = 500;  // of the visible surface, about
+constexpr int kOutlineStride = 2;               // every so many pixels of the outline
+constexpr int kLastOutlineReach_px = 3;
+constexpr float kOutlineWeight = 0.5F;          // of an outline pixel, relative to a surface point
+constexpr float kShadowWeight = 0.15F;          // ... beyond which nothing was measured
+constexpr float kOutlineGates = 1.5F;           // depth gate across the outline, in last gates of the surface
 constexpr float kFirstGateRel = 0.10F;       // of the diameter
 constexpr float kMinNormalCosine = 0.7F;
 constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out
@@ -32,12 +38,20 @@ struct SurfacePoint
   Eigen::Vector3f normal;
 };
 
-/// About kSurfacePoints of what the camera sees of a free part at this pose, evenly over the image.
-void visibleSurface(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
-                    const PinholeCamera& camera, std::vector<SurfacePoint>& surface)
+/// What the camera sees of a free part at a pose.
+struct VisiblePart
+{
+  std::vector<SurfacePoint> surface;             ///< About kSurfacePoints, evenly over the image.
+  std::vector<OutlinePoint> outline;             ///< Points as seen from the pose of rendering.
+  std::vector<Eigen::Vector3f> outline_points;   ///< The outline's points, mesh frame [m].
+};
+
+void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model, const PinholeCamera& camera,
+             VisiblePart& part)
 {
   thread_local RenderedPart view;
   renderPart(model.data().mesh, T_camera_model, camera, view);
+  std::vector<SurfacePoint>& surface = part.surface;
   surface.clear();
   const auto covered = static_cast<std::size_t>(
       std::count_if(view.depth.begin(), view.depth.end(), [](float z) { return z > 0; }));
@@ -57,6 +71,18 @@ void visibleSurface(const PpfModel& model, const Eigen::Isometry3f& T_camera_mod
       if (-normal.dot(ray) < kMinFacing * ray.norm()) continue;
       surface.push_back({T_model_camera * (z * ray), T_model_camera.linear() * normal});
     }
+  part.outline = outlineOf(view, camera, kOutlineStride);
+  part.outline_points.clear();
+  for (const OutlinePoint& point : part.outline) part.outline_points.push_back(T_model_camera * point.point);
+}
+
+/// Change of a point's coordinate along a direction with a turn (scaled by the lever) and a shift.
+Vector6f jacobianOf(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction)
+{
+  Vector6f jacobian;
+  jacobian << arm.y() * direction.z() - arm.z() * direction.y(), arm.z() * direction.x() - arm.x() * direction.z(),
+      arm.x() * direction.y() - arm.y() * direction.x(), direction.x(), direction.y(), direction.z();
+  return jacobian;
 }
 
 /// The weighted normal equations of one step, about the part's centre.
@@ -107,13 +133,27 @@ NormalEquations equationsOf(const RangeImage& image, const std::vector<SurfacePo
     if (std::abs(share) >= 1) continue;
     const float tukey = (1 - share * share) * (1 - share * share);
     const Eigen::Vector3f arm = (p - center) / lever_m;
-    Vector6f jacobian;
-    jacobian << arm.y() * normal.z() - arm.z() * normal.y(),
-        arm.z() * normal.x() - arm.x() * normal.z(), arm.x() * normal.y() - arm.y() * normal.x(),
-        normal.x(), normal.y(), normal.z();
-    equations.add(jacobian, residual, tukey);
+    equations.add(jacobianOf(arm, normal), residual, tukey);
   }
   return equations;
+}
+
+/// Adds what the outline says: across it the part should end where the measured surface ends.
+void addOutline(const RangeImage& image, const VisiblePart& part, const Eigen::Isometry3f& T_camera_model,
+                const Eigen::Vector3f& center, float lever_m, float gate_m, int reach_px, NormalEquations& equations)
+{
+  for (std::size_t i = 0; i < part.outline.size(); ++i)
+  {
+    const Eigen::Vector3f p = T_camera_model * part.outline_points[i];
+    const OutlineMatch match = matchOutline(image, part.outline[i], p, gate_m, reach_px);
+    if (match.end != OutlineEnd::kBehind && match.end != OutlineEnd::kMissing) continue;
+    const float share = static_cast<float>(match.offset_px) / static_cast<float>(reach_px + 1);
+    const float tukey = (1 - share * share) * (1 - share * share);
+    const float weight = match.end == OutlineEnd::kBehind ? kOutlineWeight : kShadowWeight;
+    const Eigen::Vector3f direction(part.outline[i].direction.x(), part.outline[i].direction.y(), 0);
+    equations.add(jacobianOf((p - center) / lever_m, direction),
+                  static_cast<float>(match.offset_px) * p.z() / image.camera.fx, weight * tukey);
+  }
 }
 
 /// Turns and shifts the pose by a step about a centre in the camera frame.
@@ -142,17 +182,19 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
   const float lever_m = kLeverRel * diameter;
   const float last_gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * diameter;
   Eigen::Isometry3f pose = T_camera_model;
-  thread_local std::vector<SurfacePoint> surface;
+  thread_local VisiblePart part;
   for (int i = 0; i < config.icp_iterations; ++i)
   {
-    if (i % kStepsPerView == 0) visibleSurface(model, pose, image.camera, surface);
+    if (i % kStepsPerView == 0) seeFrom(model, pose, image.camera, part);
     const float progress =
         static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
     const float gate_m = std::max(
         last_gate_m, kFirstGateRel * diameter *
                          std::pow(last_gate_m / (kFirstGateRel * diameter), 1.5F * progress));
     const Eigen::Vector3f center = pose * model.data().center;
-    const NormalEquations equations = equationsOf(image, surface, pose, center, lever_m, gate_m);
+    NormalEquations equations = equationsOf(image, part.surface, pose, center, lever_m, gate_m);
+    const int reach_px = kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
+    addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px, equations);
     if (!(equations.weight > 6)) break;
     const Vector6f step = equations.solve();
     pose = moved(pose, step, center, lever_m);

@@ -98,7 +98,7 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
     DetectedPose pose =
-        poseOfCandidate(*best, static_cast<double>(best->evidence.confirmed.size()));
+        poseOfCandidate(*best, best->evidence.confirmed_weight);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
         regionOf(pose, {cluster.box, cluster.hypotheses}, *models[pose.model], config));

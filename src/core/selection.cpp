@@ -19,12 +19,13 @@ struct Entry
   }
 };
 
-double freePixels(const PoseEvidence& evidence, const std::vector<std::uint8_t>& owned)
+/// Weight of the confirmed pixels that nobody owns.
+double freeWeight(const PoseEvidence& evidence, const std::vector<std::uint8_t>& owned)
 {
-  std::size_t free = 0;
-  for (const std::uint32_t pixel : evidence.confirmed)
-    free += !owned[pixel];
-  return static_cast<double>(free);
+  double free = 0;
+  for (const PoseEvidence::Pixel& pixel : evidence.confirmed)
+    if (!owned[pixel.index]) free += pixel.weight;
+  return free;
 }
 }  // namespace
 
@@ -34,7 +35,7 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
   std::vector<std::uint8_t> owned(pixels, 0);
   std::priority_queue<Entry> queue;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    queue.push({evidenceBalance(candidates[i], static_cast<double>(candidates[i].confirmed.size())),
+    queue.push({evidenceBalance(candidates[i], candidates[i].confirmed_weight),
                 i, 0});
   std::vector<SelectedPose> selected;
   while (!queue.empty() && queue.top().balance > 0)
@@ -42,7 +43,7 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
     const Entry best = queue.top();
     queue.pop();
     const PoseEvidence& evidence = candidates[best.candidate];
-    const double confirmed = freePixels(evidence, owned);
+    const double confirmed = freeWeight(evidence, owned);
     if (best.round <
         selected.size())  // balances only fall: one that is up to date and on top is the best
     {
@@ -50,8 +51,8 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
       continue;
     }
     selected.push_back({best.candidate, confirmed});
-    for (const std::uint32_t pixel : evidence.confirmed)
-      owned[pixel] = 1;
+    for (const PoseEvidence::Pixel& pixel : evidence.confirmed)
+      owned[pixel.index] = 1;
   }
   return selected;
 }

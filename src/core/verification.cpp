@@ -2,13 +2,17 @@
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr int kEdgeReach_px = 3;         // how far beyond the outline the surface must have ended
+constexpr float kUnseenFacing = 0.25F;    // cosine to the line of sight below which a surface need not be seen
+constexpr float kSeenFacing = 0.6F;      // ... from which on it counts in full
+constexpr int kOutlineRing_px = 1;       // pixels along the outline that decide nothing
+constexpr float kEdgeReachRel = 0.03F;   // how far beyond the outline the surface must have ended
 constexpr float kMinEdgeFacing = 0.25F;  // flatter surfaces cannot be continued beyond the outline
 constexpr double kMissingWeight = 0.4;   // of a contradiction
 constexpr double kEdgeWeight = 4.0;      // of a missing edge, in pixels of surface
@@ -31,6 +35,8 @@ public:
         gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
+    const float depth_m = view.width > 0 ? *std::max_element(view.depth.begin(), view.depth.end()) : 1.0F;
+    edge_reach_px_ = std::max(2, static_cast<int>(std::lround(kEdgeReachRel * diameter_m * image.camera.fx / depth_m)));
   }
 
   PoseEvidence run()
@@ -59,41 +65,52 @@ private:
   void comparePixel(int column, int row)
   {
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
+    const ModelPixel pixel = modelPixel(column, row);
+    const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
+    const float seen = std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
+    const float weight = nearOutline(column, row) ? 0.0F : seen;
     const float z = image_.depth[index];
     if (z == 0)
     {
-      ++evidence_.missing;
+      evidence_.missing += weight;
       return;
     }
-    const ModelPixel pixel = modelPixel(column, row);
-    const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
-    const float behind_m =
-        (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
+    const float behind_m = (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
     if (behind_m < -gate_m_)
     {
-      ++evidence_.occluded;
+      evidence_.occluded += weight;
       return;
     }
     if (behind_m > gate_m_)
     {
-      ++evidence_.looked_through;
+      evidence_.looked_through += weight;
       return;
     }
     const Eigen::Vector3f& normal = image_.normals[index];
     if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
     {
-      ++evidence_.wrong_normal;
+      evidence_.wrong_normal += weight;
       return;
     }
     if (!image_.in_roi[index])
     {
-      ++evidence_.outside;
+      evidence_.outside += weight;
       return;
     }
-    evidence_.confirmed.push_back(static_cast<std::uint32_t>(index));
+    evidence_.confirmed.push_back({static_cast<std::uint32_t>(index), weight});
+    evidence_.confirmed_weight += weight;
     squared_error_ += behind_m * behind_m;
     for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
       if (endsTowards(column, row, du, dv)) compareOutline(pixel, column, row, du, dv);
+  }
+
+  /// True if the part ends within kOutlineRing_px: there sensors mix what lies before and behind.
+  bool nearOutline(int column, int row) const
+  {
+    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      for (int k = 1; k <= kOutlineRing_px; ++k)
+        if (endsTowards(column, row, k * du, k * dv)) return true;
+    return false;
   }
 
   /// True if the part ends, or falls off to a surface farther back, at the next pixel.
@@ -108,8 +125,8 @@ private:
   /// Does the measured surface go on where the part's has ended?
   void compareOutline(const ModelPixel& pixel, int column, int row, int du, int dv)
   {
-    const int u = view_.left + column + kEdgeReach_px * du;
-    const int v = view_.top + row + kEdgeReach_px * dv;
+    const int u = view_.left + column + edge_reach_px_ * du;
+    const int v = view_.top + row + edge_reach_px_ * dv;
     if (u < 0 || v < 0 || u >= image_.camera.width || v >= image_.camera.height) return;
     const float z = image_.depth[image_.index(u, v)];
     const Eigen::Vector3f ray = image_.camera.ray(static_cast<float>(u), static_cast<float>(v));
@@ -130,6 +147,7 @@ private:
   const RenderedPart& view_;
   float gate_m_;
   float min_normal_cosine_;
+  int edge_reach_px_ = 2;
   PoseEvidence evidence_;
   float squared_error_ = 0;
 };
@@ -147,13 +165,13 @@ double poseScore(const PoseEvidence& evidence, double confirmed)
 {
   const double against = evidence.looked_through + evidence.wrong_normal + evidence.outside +
                          kMissingWeight * evidence.missing + kEdgeWeight * evidence.edge_missing +
-                         static_cast<double>(evidence.confirmed.size()) - confirmed;
+                         evidence.confirmed_weight - confirmed;
   return confirmed > 0 ? confirmed / (confirmed + against) : 0.0;
 }
 
 double evidenceBalance(const PoseEvidence& evidence, double confirmed)
 {
-  const double claimed_by_others = static_cast<double>(evidence.confirmed.size()) - confirmed;
+  const double claimed_by_others = evidence.confirmed_weight - confirmed;
   return confirmed - 3.0 * evidence.looked_through - 3.6 * evidence.wrong_normal -
          0.56 * evidence.missing - 0.3 * evidence.occluded - 1.0 * evidence.outside -
          claimed_by_others - 10.0 * evidence.edge_missing + 3.0 * evidence.edge_confirmed;

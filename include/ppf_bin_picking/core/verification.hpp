@@ -12,25 +12,29 @@
 
 namespace ppf_bin_picking
 {
-/// The pixels that a free part at the pose would cover, sorted by what was measured there.
+/// The pixels that a free part at the pose would cover, sorted by what was measured there. Sums of weights: a
+/// pixel counts less the flatter the surface lies to the line of sight, as sensors see little of such surfaces.
 struct PoseEvidence
 {
-  std::vector<std::uint32_t>
-      confirmed;           ///< Image indices: surface and normal agree, inside the region.
-  int looked_through = 0;  ///< The cloud lies behind the supposed surface.
-  int wrong_normal = 0;    ///< A surface in the right place with another normal.
-  int missing = 0;         ///< Nothing was measured.
-  int occluded = 0;        ///< The cloud lies in front.
-  int outside = 0;         ///< Explained by a surface outside the region of interest.
-  int edge_confirmed = 0;  ///< Outline pixels beyond which the surface ends.
-  int edge_missing = 0;    ///< Outline pixels beyond which the same surface goes on.
-  float rms_error_m = 0;   ///< Of the confirmed pixels, along their normals.
-
-  /// Pixels that are not hidden by something in front.
-  int expected() const
+  /// A confirmed pixel.
+  struct Pixel
   {
-    return static_cast<int>(confirmed.size()) + looked_through + wrong_normal + missing + outside;
-  }
+    std::uint32_t index;  ///< Into the image.
+    float weight;         ///< In [0, 1].
+  };
+  std::vector<Pixel> confirmed;  ///< Surface and normal agree, inside the region.
+  double confirmed_weight = 0;   ///< Sum over confirmed.
+  double looked_through = 0;     ///< The cloud lies behind the supposed surface.
+  double wrong_normal = 0;       ///< A surface in the right place with another normal.
+  double missing = 0;            ///< Nothing was measured.
+  double occluded = 0;           ///< The cloud lies in front.
+  double outside = 0;            ///< Explained by a surface outside the region of interest.
+  double edge_confirmed = 0;     ///< Outline pixels beyond which the surface ends.
+  double edge_missing = 0;       ///< Outline pixels beyond which the same surface goes on.
+  float rms_error_m = 0;         ///< Of the confirmed pixels, along their normals.
+
+  /// Weight of the pixels that nothing in front hides.
+  double expected() const { return confirmed_weight + looked_through + wrong_normal + missing + outside; }
 };
 
 /// Renders the part at the pose and compares pixel by pixel.
@@ -39,7 +43,7 @@ PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config);
 
 /// Share of the surface the camera should see that the cloud confirms, in [0, 1].
-/// @param confirmed  Confirmed pixels that count, at most those of the evidence.
+/// @param confirmed  Weight of the confirmed pixels that count, at most confirmed_weight.
 double poseScore(const PoseEvidence& evidence, double confirmed);
 
 /// How much the cloud speaks for the pose, in pixels; below zero it speaks against it. Unlike the

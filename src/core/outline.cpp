@@ -1,0 +1,104 @@
+#include "ppf_bin_picking/core/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr float kPlaneFacing = 0.3F;   // flatter surfaces are not extended beyond the outline
+constexpr int kDirectionRadius_px = 2;  // window that gives the outline's direction
+
+bool covered(const RenderedPart& view, int column, int row)
+{
+  return column >= 0 && row >= 0 && column < view.width && row < view.height && view.depthAt(column, row) > 0;
+}
+
+/// From the part's pixels to the others around a pixel; zero if they balance.
+Eigen::Vector2f outwardDirection(const RenderedPart& view, int column, int row)
+{
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  for (int dr = -kDirectionRadius_px; dr <= kDirectionRadius_px; ++dr)
+    for (int dc = -kDirectionRadius_px; dc <= kDirectionRadius_px; ++dc)
+      if (!covered(view, column + dc, row + dr)) sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
+  const float length = sum.norm();
+  return length > 1 ? Eigen::Vector2f(sum / length) : Eigen::Vector2f::Zero();
+}
+
+/// Relative depths along the direction: the part's where it is, its plane's beyond.
+void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int column, int row, OutlinePoint& outline)
+{
+  Eigen::Vector3f normal = view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
+  const float z0 = view.depthAt(column, row);
+  const float facing = std::abs(normal.dot(outline.point)) / outline.point.norm();
+  const float plane = normal.dot(outline.point);
+  for (int t = -kOutlineReach_px; t <= kOutlineReach_px; ++t)
+  {
+    const auto step = static_cast<float>(t);
+    const int c = column + static_cast<int>(std::lround(step * outline.direction.x()));
+    const int r = row + static_cast<int>(std::lround(step * outline.direction.y()));
+    float& relative = outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
+    relative = 0;
+    if (t <= 0 && covered(view, c, r))
+      relative = view.depthAt(c, r) - z0;
+    else if (facing > kPlaneFacing)
+      relative = plane / normal.dot(camera.ray(static_cast<float>(view.left + c), static_cast<float>(view.top + r))) - z0;
+  }
+}
+}  // namespace
+
+std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera, int stride)
+{
+  std::vector<OutlinePoint> outline;
+  int seen = 0;
+  for (int row = 0; row < view.height; ++row)
+    for (int column = 0; column < view.width; ++column)
+    {
+      if (!covered(view, column, row)) continue;
+      const bool inner = covered(view, column - 1, row) && covered(view, column + 1, row) &&
+                         covered(view, column, row - 1) && covered(view, column, row + 1);
+      if (inner || seen++ % stride != 0) continue;
+      OutlinePoint point;
+      point.direction = outwardDirection(view, column, row);
+      if (point.direction.isZero()) continue;
+      const Eigen::Vector3f ray =
+          camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
+      point.point = ray * view.depthAt(column, row);
+      fillProfile(view, camera, column, row, point);
+      outline.push_back(point);
+    }
+  return outline;
+}
+
+OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, const Eigen::Vector3f& point_camera,
+                          float gate_m, int reach_px)
+{
+  OutlineMatch match;
+  if (!(point_camera.z() > 0)) return match;
+  const Eigen::Vector2f pixel = image.camera.project(point_camera);
+  bool on_surface = false;
+  for (int t = -reach_px; t <= reach_px; ++t)
+  {
+    const Eigen::Vector2f at = pixel + static_cast<float>(t) * outline.direction;
+    const float expected_m = point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
+    if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
+          at.y() < static_cast<float>(image.camera.height - 1)))
+      return {OutlineEnd::kHidden, 0};
+    const float z = image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
+    const float behind_m = z - expected_m;
+    if (z > 0 && std::abs(behind_m) <= gate_m)
+    {
+      on_surface = true;
+      match.offset_px = t;
+      continue;
+    }
+    if (z > 0 && behind_m < 0) return {OutlineEnd::kHidden, 0};
+    if (!on_surface) continue;
+    match.end = z > 0 ? OutlineEnd::kBehind : OutlineEnd::kMissing;
+    return match;
+  }
+  match.end = on_surface ? OutlineEnd::kGoesOn : OutlineEnd::kHidden;
+  return match;
+}
+}  // namespace ppf_bin_picking
