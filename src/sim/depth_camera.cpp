@@ -42,7 +42,9 @@ void shootRow(const RayCaster& world, const PinholeCamera& camera,
     if (!hit) continue;
     const std::size_t pixel = row * camera.width + column;
     view.object[pixel] = static_cast<std::int32_t>(hit->object);
-    if (std::abs(hit->normal.dot(direction)) < std::cos(noise.max_slant_rad)) continue;
+    const float facing = std::abs(hit->normal.dot(direction));
+    view.brightness[pixel] = facing;
+    if (facing < std::cos(noise.max_slant_rad)) continue;
     const double depth_m = hit->distance_m * ray.z() + error_m;
     view.cloud_camera.points[pixel] = (ray * (depth_m / ray.z())).cast<float>();
   }
@@ -105,6 +107,7 @@ DepthView takeShot(const RayCaster& world, const PinholeCamera& camera,
   view.cloud_camera.points.assign(
       size, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   view.object.assign(size, -1);
+  view.brightness.assign(size, 0);
   parallelFor(threads, static_cast<std::size_t>(camera.height),
               [&](std::size_t row)
               { shootRow(world, camera, T_world_camera, noise, seed, row, view); });

@@ -17,9 +17,8 @@ CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, in
   const RayCaster world(meshes);
   CellShot shot;
   shot.T_base_camera = lookAt(settings.camera_position_m, settings.camera_target_m);
-  const DepthView view = takeShot(world, settings.camera, shot.T_base_camera, settings.noise, seed);
-  shot.parts = partTruths(view, settings.camera, shot.T_base_camera, part, T_base_parts, 1);
-  shot.cloud_camera = view.cloud_camera;
+  shot.view = takeShot(world, settings.camera, shot.T_base_camera, settings.noise, seed);
+  shot.parts = partTruths(shot.view, settings.camera, shot.T_base_camera, part, T_base_parts, 1);
   return shot;
 }
 }  // namespace ppf_bin_picking

@@ -96,6 +96,7 @@ TEST(TakeShot, missesWhatIsSeenAtAFlatAngle)
   EXPECT_FALSE(view.cloud_camera.points[10 * 320 + 160].allFinite());  // far, flat
   EXPECT_TRUE(view.cloud_camera.points[230 * 320 + 160].allFinite());  // near, steep
   EXPECT_EQ(view.object[10 * 320 + 160], 0);
+  EXPECT_GT(view.brightness[230 * 320 + 160], view.brightness[10 * 320 + 160]);
 }
 
 TEST(TakeShot, givesTheSameBytesForAnyNumberOfThreads)
@@ -166,7 +167,7 @@ TEST(SimulateCell, putsThePartsWhereTheTruthSays)
   const RayCaster alone({{&part, Eigen::Isometry3d::Identity()}});
   int on_parts = 0;
   int above_floor = 0;
-  for (const Eigen::Vector3f& point : shot.cloud_camera.points)
+  for (const Eigen::Vector3f& point : shot.view.cloud_camera.points)
   {
     const Eigen::Vector3d p_camera = point.cast<double>();
     const Eigen::Vector3d p_bin = shot.T_base_camera * p_camera - settings.bin_position_m;

@@ -25,6 +25,7 @@ struct DepthView
 {
   PointCloud cloud_camera;           ///< Organised; NaN where nothing was measured.
   std::vector<std::int32_t> object;  ///< Mesh seen by each pixel, measured or not; -1: none.
+  std::vector<float> brightness;     ///< Of each pixel, lit from the camera; to look at. [0, 1]
 };
 
 /// The truth about one part.

@@ -27,7 +27,7 @@ struct CellSettings
 /// What the camera saw, and the truth about it.
 struct CellShot
 {
-  PointCloud cloud_camera;
+  DepthView view;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< [m]
   std::vector<PartTruth> parts;
 };
