@@ -16,10 +16,9 @@ WRONG_REL = 0.1  # a pose is wrong if a point of the part is off by more, relati
 METRES = {"m": 1.0, "mm": 0.001}
 
 
-def constant_name(message, value, type_prefix=""):
-    """Name of a message's constant; the first that has the value."""
-    names = [n for n in dir(message) if n.isupper() and getattr(message, n) == value]
-    return type_prefix + (names[0] if names else str(value))
+def constant_name(message, value):
+    """Name of the constant of a message that has the value."""
+    return next(n for n in dir(message) if n.isupper() and getattr(message, n) == value)
 
 
 def rotation(x, y, z, w):
@@ -136,8 +135,8 @@ def report(answer, part, truths):
     print(f"\nStatus {constant_name(GetPickablePosesResponse, answer.status)}: {answer.message}")
     print(f"{answer.roi_points} points in the region of interest, ", end="")
     print(f"{answer.processing_time.to_sec():.2f} s of detection\n")
-    print(f"                position in {answer.header.frame_id:14} score  votes  part   error:")
-    print("                   x      y      z [m]                   centre mm  turn deg")
+    print(f"            position in {answer.header.frame_id} [m]       nearest  its centre  turned")
+    print("                 x      y      z  score  votes     part     off by      by")
     taken = set()
     wrong = 0
     for found in answer.poses:
@@ -149,8 +148,8 @@ def report(answer, part, truths):
         wrong += is_wrong
         taken.add(nearest)
         place = f"{pose.position.x:7.3f}{pose.position.y:7.3f}{pose.position.z:7.3f}"
-        print(f"{found.id:14}{place}{found.score:12.2f}{found.votes:7.0f}{nearest:6}", end="")
-        print(f"{1000 * center:10.2f}{turn:10.2f}{'  WRONG' if is_wrong else ''}")
+        print(f"{found.id:12}{place}{found.score:7.2f}{found.votes:7.0f}{nearest:9}", end="")
+        print(f"{1000 * center:8.2f} mm{turn:6.2f} deg{'  WRONG' if is_wrong else ''}")
     regions = answer.mismatching_regions
     print(f"\n{len(truths)} parts in the bin, {len(answer.poses)} reliable poses, {wrong} wrong")
     print(f"{len(regions)} mismatching regions, whose poses are not to be picked")
