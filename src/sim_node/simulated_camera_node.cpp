@@ -38,6 +38,7 @@ struct CameraParams
   int seed = 1;
   double rate_hz = 1.0;
   std::string base_frame = "base_link";
+  std::string bin_frame = "bin";
   std::string camera_frame = "camera_optical_frame";
   CellSettings cell;
 };
@@ -115,9 +116,9 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
 {
   XmlRpc::XmlRpcValue tree;
   private_nh.getParam("", tree);
-  const YamlMap map(
-      toYaml(tree), private_nh.getNamespace(),
-      {"part", "count", "seed", "rate_hz", "base_frame", "camera_frame", "bin", "camera"});
+  const YamlMap map(toYaml(tree), private_nh.getNamespace(),
+                    {"part", "count", "seed", "rate_hz", "base_frame", "bin_frame", "camera_frame",
+                     "bin", "camera"});
   CameraParams params;
   params.part = map.text("part");
   const Reader reader(map);
@@ -125,6 +126,7 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
   reader.integer("seed", 0, 1000000, params.seed);
   reader.number("rate_hz", 0.01, kMaxRate_hz, params.rate_hz);
   reader.text("base_frame", params.base_frame);
+  reader.text("bin_frame", params.bin_frame);
   reader.text("camera_frame", params.camera_frame);
   if (map.has("bin")) readBin(map.map("bin", {"size_m", "wall_m", "position_m"}), params.cell);
   if (map.has("camera"))
@@ -164,15 +166,23 @@ geometry_msgs::PoseArray toMessage(const std::vector<ppf_bin_picking::PartTruth>
   return message;
 }
 
+geometry_msgs::TransformStamped toMessage(const Eigen::Isometry3d& T_parent_child,
+                                          const std::string& parent, const std::string& child)
+{
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T_parent_child);
+  message.header.frame_id = parent;
+  message.header.stamp = ros::Time::now();
+  message.child_frame_id = child;
+  return message;
+}
+
 /// Publishes the same shot again and again, each time with a new stamp, until the node ends.
 void publishShots(ros::NodeHandle& private_nh, const CameraParams& params, const CellShot& shot)
 {
+  const Eigen::Isometry3d T_base_bin(Eigen::Translation3d(params.cell.bin_position_m));
   tf2_ros::StaticTransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped transform = tf2::eigenToTransform(shot.T_base_camera);
-  transform.header.frame_id = params.base_frame;
-  transform.header.stamp = ros::Time::now();
-  transform.child_frame_id = params.camera_frame;
-  broadcaster.sendTransform(transform);
+  broadcaster.sendTransform({toMessage(shot.T_base_camera, params.base_frame, params.camera_frame),
+                             toMessage(T_base_bin, params.base_frame, params.bin_frame)});
 
   const auto truth = private_nh.advertise<geometry_msgs::PoseArray>("truth", 1, true);
   truth.publish(toMessage(shot.parts, params.camera_frame));

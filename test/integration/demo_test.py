@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+"""The demo ends by itself with right poses, and its client can tell right poses from wrong ones."""
+import re
+import subprocess
+import sys
+import unittest
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+
+import numpy as np
+import rostest
+
+PACKAGE = Path(__file__).resolve().parents[2]
+client = SourceFileLoader("demo_client", str(PACKAGE / "src/sim_node/demo_client.py")).load_module()
+
+
+def part(name):
+    return client.Part(str(PACKAGE / f"config/parts/{name}.yaml"))
+
+
+def turned(model, axis, angle_deg):
+    """A truth somewhere, and the same pose turned about the part's axis through its origin."""
+    truth = client.turn_about([1, 2, 3], 0.7, np.array([0.4, 0.1, -0.2]))
+    return model.error(truth @ client.turn_about(axis, np.radians(angle_deg), np.zeros(3)), truth)
+
+
+class DemoTest(unittest.TestCase):
+    def test_sees_no_error_in_symmetric_turns(self):
+        for name, axis, angle_deg in [("tee", [0, 0, 1], 180), ("bolt", [0, 0, 1], 77)]:
+            surface, center, turn = turned(part(name), axis, angle_deg)
+            self.assertLess(surface, 1e-6, name)
+            self.assertLess(center, 1e-6, name)
+            self.assertLess(turn, 1e-3, name)
+
+    def test_sees_other_turns(self):
+        for name, axis in [("bracket", [0, 0, 1]), ("tee", [1, 0, 0]), ("bolt", [1, 0, 0])]:
+            model = part(name)
+            surface, _, turn = turned(model, axis, 180)
+            self.assertGreater(surface, client.WRONG_REL * model.diameter, name)
+            self.assertGreater(turn, 90, name)
+
+    def test_measures_a_shift(self):
+        model = part("bracket")
+        pose = np.eye(4)
+        pose[:3, 3] = 0.003, 0, 0.004
+        surface, center, turn = model.error(pose, np.eye(4))
+        self.assertAlmostEqual(surface, 0.005)
+        self.assertAlmostEqual(center, 0.005)
+        self.assertAlmostEqual(turn, 0)
+
+    def test_demo_ends_with_right_poses(self):
+        command = ["roslaunch", "ppf_bin_picking", "demo.launch"]
+        output = subprocess.run(command, capture_output=True, text=True, timeout=280).stdout
+        self.assertRegex(output, r"demo_client-\d+\] has died!\s+process has finished cleanly")
+        summary = re.search(r"(\d+) parts in the bin, (\d+) reliable poses, (\d+) wrong", output)
+        self.assertIsNotNone(summary, output)
+        parts, poses, wrong = (int(number) for number in summary.groups())
+        self.assertEqual(parts, 14)
+        self.assertGreaterEqual(poses, 7)
+        self.assertEqual(wrong, 0)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("ppf_bin_picking", "demo", DemoTest, sys.argv)
