@@ -16,10 +16,10 @@ namespace
 constexpr int kStepsPerView = 4;  // the visible surface is rendered anew after so many steps
 constexpr std::size_t kSurfacePoints = 500;  // of the visible surface, about
 constexpr int kOutlineStride = 2;               // every so many pixels of the outline
-constexpr int kLastOutlineReach_px = 3;
+constexpr int kLastOutlineReach_px = 5;
 constexpr float kOutlineWeight = 0.5F;          // of an outline pixel, relative to a surface point
-constexpr float kShadowWeight = 0.15F;          // ... beyond which nothing was measured
-constexpr float kOutlineGates = 1.5F;           // depth gate across the outline, in last gates of the surface
+constexpr float kShadowWeight = 0.3F;          // ... beyond which nothing was measured
+constexpr float kOutlineGates = 0.7F;           // depth gate across the outline, in last gates of the surface
 constexpr float kFirstGateRel = 0.10F;       // of the diameter
 constexpr float kMinNormalCosine = 0.7F;
 constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out

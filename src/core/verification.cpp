@@ -11,7 +11,7 @@ namespace
 {
 constexpr float kUnseenFacing = 0.25F;    // cosine to the line of sight below which a surface need not be seen
 constexpr float kSeenFacing = 0.6F;      // ... from which on it counts in full
-constexpr int kOutlineRing_px = 1;       // pixels along the outline that decide nothing
+constexpr float kRingRel = 0.04F;        // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.03F;   // how far beyond the outline the surface must have ended
 constexpr float kMinEdgeFacing = 0.25F;  // flatter surfaces cannot be continued beyond the outline
 constexpr double kMissingWeight = 0.4;   // of a contradiction
@@ -36,7 +36,9 @@ public:
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
     const float depth_m = view.width > 0 ? *std::max_element(view.depth.begin(), view.depth.end()) : 1.0F;
-    edge_reach_px_ = std::max(2, static_cast<int>(std::lround(kEdgeReachRel * diameter_m * image.camera.fx / depth_m)));
+    const float diameter_px = diameter_m * image.camera.fx / depth_m;
+    ring_px_ = std::max(1, static_cast<int>(std::lround(kRingRel * diameter_px)));
+    edge_reach_px_ = std::max(2, static_cast<int>(std::lround(kEdgeReachRel * diameter_px)));
   }
 
   PoseEvidence run()
@@ -67,12 +69,12 @@ private:
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
     const ModelPixel pixel = modelPixel(column, row);
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
-    const float seen = std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
-    const float weight = nearOutline(column, row) ? 0.0F : seen;
+    const float weight = std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
+    const float doubt = weight * std::min(1.0F, static_cast<float>(outlineDistance(column, row)) / static_cast<float>(ring_px_));
     const float z = image_.depth[index];
     if (z == 0)
     {
-      evidence_.missing += weight;
+      evidence_.missing += doubt;
       return;
     }
     const float behind_m = (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
@@ -83,13 +85,13 @@ private:
     }
     if (behind_m > gate_m_)
     {
-      evidence_.looked_through += weight;
+      evidence_.looked_through += doubt;
       return;
     }
     const Eigen::Vector3f& normal = image_.normals[index];
     if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
     {
-      evidence_.wrong_normal += weight;
+      evidence_.wrong_normal += doubt;
       return;
     }
     if (!image_.in_roi[index])
@@ -104,13 +106,14 @@ private:
       if (endsTowards(column, row, du, dv)) compareOutline(pixel, column, row, du, dv);
   }
 
-  /// True if the part ends within kOutlineRing_px: there sensors mix what lies before and behind.
-  bool nearOutline(int column, int row) const
+  /// Pixels to the part's outline along rows and columns, at most the ring's width. There sensors mix what lies
+  /// before and behind, so contradictions weigh less.
+  int outlineDistance(int column, int row) const
   {
-    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      for (int k = 1; k <= kOutlineRing_px; ++k)
-        if (endsTowards(column, row, k * du, k * dv)) return true;
-    return false;
+    for (int k = 1; k <= ring_px_; ++k)
+      for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        if (endsTowards(column, row, k * du, k * dv)) return k - 1;
+    return ring_px_;
   }
 
   /// True if the part ends, or falls off to a surface farther back, at the next pixel.
@@ -148,6 +151,7 @@ private:
   float gate_m_;
   float min_normal_cosine_;
   int edge_reach_px_ = 2;
+  int ring_px_ = 1;
   PoseEvidence evidence_;
   float squared_error_ = 0;
 };

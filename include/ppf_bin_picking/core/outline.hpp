@@ -12,7 +12,7 @@
 namespace ppf_bin_picking
 {
 /// How far across the outline the measured surface is followed, to each side [px].
-constexpr int kOutlineReach_px = 6;
+constexpr int kOutlineReach_px = 12;
 
 /// A pixel of the part's outline.
 struct OutlinePoint
