@@ -100,16 +100,17 @@ class Part:
 
 
 def ask(service, deadline_s):
-    """One answer about the next cloud; waits until the detector has loaded its model."""
+    """One answer about the next cloud; waits until the detector has loaded its model and has time."""
     end = time.monotonic() + deadline_s
     rospy.wait_for_service(service, timeout=deadline_s)
     call = rospy.ServiceProxy(service, GetPickablePoses)
     request = GetPickablePosesRequest(
         acquisition=GetPickablePosesRequest.NEXT, include_mismatching=True
     )
+    not_yet = (GetPickablePosesResponse.NOT_READY, GetPickablePosesResponse.BUSY)
     while True:
         answer = call(request)
-        if answer.status != GetPickablePosesResponse.NOT_READY or time.monotonic() > end:
+        if answer.status not in not_yet or time.monotonic() > end:
             return answer
         time.sleep(0.5)
 
