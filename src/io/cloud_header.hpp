@@ -6,10 +6,7 @@
 
 namespace ppf_bin_picking
 {
-/// Number of elements that a PLY header announces, such as `vertex` or `face`; 0 if it has none.
-std::size_t plyElements(const std::string& bytes, const std::string& element);
-
-/// Points of a PLY file. @throw InputError if it cannot hold as many as it announces.
+/// Points of a PLY file. @throw InputError if it is damaged or cut off.
 std::size_t plyPoints(const std::string& bytes, const std::string& path);
 
 /// Points of a PCD file. @throw InputError if its header is incomplete or contradicts itself or the

@@ -6,6 +6,14 @@ find_package(PCL REQUIRED COMPONENTS common io)
 find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)
 
+set(io_libraries
+    assimp::assimp
+    nlohmann_json::nlohmann_json
+    opencv_core
+    opencv_imgcodecs
+    pcl_common
+    pcl_io
+    ZLIB::ZLIB)
 set(io_dir "${CMAKE_CURRENT_LIST_DIR}")
 add_library(
   ${PROJECT_NAME}_io
@@ -20,6 +28,7 @@ add_library(
   ${io_dir}/mesh_io.cpp
   ${io_dir}/model_io.cpp
   ${io_dir}/part_io.cpp
+  ${io_dir}/ply_check.cpp
   ${io_dir}/png_check.cpp
   ${io_dir}/result_io.cpp
   ${io_dir}/rigid_pose.cpp
@@ -29,13 +38,5 @@ add_library(
 target_include_directories(${PROJECT_NAME}_io PUBLIC "${io_dir}/../../include" PRIVATE ${io_dir})
 target_include_directories(${PROJECT_NAME}_io SYSTEM PRIVATE ${PCL_INCLUDE_DIRS}
                                                              ${OpenCV_INCLUDE_DIRS})
-target_link_libraries(
-  ${PROJECT_NAME}_io
-  PUBLIC ${PROJECT_NAME}_core yaml-cpp
-  PRIVATE assimp::assimp
-          nlohmann_json::nlohmann_json
-          opencv_core
-          opencv_imgcodecs
-          pcl_common
-          pcl_io
-          ZLIB::ZLIB)
+target_link_libraries(${PROJECT_NAME}_io PUBLIC ${PROJECT_NAME}_core yaml-cpp
+                      PRIVATE ${io_libraries})

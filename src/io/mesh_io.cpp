@@ -3,7 +3,7 @@
 #include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 
-#include "cloud_header.hpp"
+#include "ply_check.hpp"
 #include "stl_tidy.hpp"
 #include "surface.hpp"
 
@@ -40,6 +40,11 @@ std::string lowerCase(std::string text)
   return text;
 }
 
+std::string unreadable(const std::string& path, const std::string& why)
+{
+  return path + " cannot be read (" + why + "): export the part again";
+}
+
 MeshFile readMeshFile(const std::string& path)
 {
   MeshFile file;
@@ -48,8 +53,14 @@ MeshFile readMeshFile(const std::string& path)
   if (file.format != "stl" && file.format != "obj" && file.format != "ply")
     throw InputError(path + " is no mesh file by its name: give an .stl, .obj or .ply file");
   file.bytes = readFile(path, kMaxMeshBytes);
-  if (file.format == "ply") file.facets = plyElements(file.bytes, "face");
-  if (file.format != "stl") return file;
+  if (file.format == "obj") return file;
+  if (file.format == "ply")
+  {
+    PlyContent content = checkPly(file.bytes);
+    if (!content.damage.empty()) throw InputError(unreadable(path, content.damage));
+    file.facets = content.elements["face"];
+    return file;
+  }
   TidyStl tidy = tidyStl(file.bytes);
   return {std::move(tidy.bytes), "stl", tidy.facets, std::move(tidy.oddities), tidy.loss};
 }
@@ -79,6 +90,22 @@ std::string noSurface(const std::string& path, const std::string& why)
   return path + " holds no finite surface (" + why + "): export the part again as a mesh";
 }
 
+/// The number of faces. @throw InputError if one names a vertex that does not exist.
+std::size_t checkedFaces(const aiScene& scene, const std::string& path)
+{
+  std::size_t faces = 0;
+  for (unsigned int m = 0; m < scene.mNumMeshes; ++m)
+  {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    faces += mesh.mNumFaces;
+    for (unsigned int f = 0; f < mesh.mNumFaces; ++f)
+      for (unsigned int k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+        if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices)
+          throw InputError(unreadable(path, "a face names a vertex that does not exist"));
+  }
+  return faces;
+}
+
 RawSurface imported(const MeshFile& file, const std::string& path)
 {
   Assimp::Importer importer;
@@ -88,15 +115,12 @@ RawSurface imported(const MeshFile& file, const std::string& path)
   {
     std::string why = importer.GetErrorString();
     why = why.substr(0, std::min(why.find('\n'), std::size_t{120}));
-    throw InputError(path + " cannot be read as " + file.format + " (" + why +
-                     "): export the part again");
+    throw InputError(unreadable(path, why));
   }
-  std::size_t faces = 0;
-  for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
-    faces += scene->mMeshes[i]->mNumFaces;
+  const std::size_t faces = checkedFaces(*scene, path);
   if (file.facets != 0 && faces != file.facets)
-    throw InputError(path + " announces " + std::to_string(file.facets) + " facets but " +
-                     std::to_string(faces) + " could be read: export the part again");
+    throw InputError(unreadable(path, "of its " + std::to_string(file.facets) + " facets only " +
+                                          std::to_string(faces) + " are usable"));
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   RawSurface surface;
   for (unsigned int i = 0; scene != nullptr && i < scene->mNumMeshes; ++i)

@@ -1,3 +1,13 @@
-# Tests of the readers and writers, one file each; those of the second list read PPF_BIN_PICKING_DATA.
-set(io_tests)
-set(io_data_tests)
+# Tests of the readers and writers, one file each; those of the second list read
+# PPF_BIN_PICKING_DATA.
+set(io_tests
+    test_cloud_io
+    test_config_io
+    test_depth_io
+    test_key_check
+    test_mesh_io
+    test_model_io
+    test_part_io
+    test_result_io
+    test_yaml_map)
+set(io_data_tests test_mesh_io_data)

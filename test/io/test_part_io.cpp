@@ -1,0 +1,113 @@
+#include "ppf_bin_picking/io/part_io.hpp"
+
+#include "support/files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+class PartFile : public testing::Test
+{
+protected:
+  PartDescription load(const std::string& text) const
+  {
+    return loadPart(folder_.write("clip.yaml", text));
+  }
+  std::string error(const std::string& text) const
+  {
+    return inputError([&] { load(text); });
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PartFile, needsNothingButTheUnit)
+{
+  const PartDescription part = load("unit: mm\n");
+  EXPECT_EQ(part.model_id, "clip");
+  EXPECT_EQ(part.mesh_file, folder_.file("model.stl"));
+  EXPECT_EQ(part.unit, LengthUnit::kMillimetre);
+  EXPECT_EQ(part.symmetries().motions().size(), 1U);
+  EXPECT_TRUE(part.picks.empty());
+  EXPECT_TRUE(part.model_file.empty());
+  EXPECT_TRUE(part.detector.IsNull());
+}
+
+TEST_F(PartFile, isNamedByItsFolderIfItIsCalledPart)
+{
+  EXPECT_EQ(loadPart(folder_.write("bolt/part.yaml", "unit: m\n")).model_id, "bolt");
+  EXPECT_EQ(load("{unit: m, model_id: m8}").model_id, "m8");
+}
+
+TEST_F(PartFile, convertsLengthsAndAngles)
+{
+  const PartDescription part = load(
+      "unit: mm\n"
+      "symmetries_discrete: [{axis: [0, 0, 2], angle_deg: 180, point: [40, 18, 0]}]\n"
+      "symmetries_continuous: [{axis: [1, 0, 0], point: [0, 0, 5]}]\n"
+      "picks: [{name: top, pose: [10, 0, -20, 0, 0, 0.70710678, 0.70710678]}]\n");
+  ASSERT_EQ(part.symmetries_discrete.size(), 1U);
+  EXPECT_NEAR(part.symmetries_discrete[0].angle_rad, M_PI, 1e-12);
+  EXPECT_TRUE(part.symmetries_discrete[0].line.point.isApprox(Eigen::Vector3d(0.04, 0.018, 0)));
+  EXPECT_TRUE(part.symmetries_discrete[0].line.axis.isApprox(Eigen::Vector3d::UnitZ()));
+  ASSERT_EQ(part.symmetries_continuous.size(), 1U);
+  EXPECT_TRUE(part.symmetries_continuous[0].point.isApprox(Eigen::Vector3d(0, 0, 0.005)));
+  ASSERT_EQ(part.picks.size(), 1U);
+  EXPECT_EQ(part.picks[0].name, "top");
+  EXPECT_TRUE((part.picks[0].T_model_pick * Eigen::Vector3d(0.01, 0, 0))
+                  .isApprox(Eigen::Vector3d(0.01, 0.01, -0.02), 1e-6));
+}
+
+TEST_F(PartFile, namesWhatIsWrong)
+{
+  expectHolds(error("mesh: a.stl\n"), "unit is missing, and a mesh file does not know its own");
+  expectHolds(error("unit: inch\n"), "unit is 'inch': give m or mm");
+  expectHolds(error("unti: mm\n"), "unknown key 'unti': the nearest known name is 'unit'");
+  expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 0], angle_deg: 90}]\n"),
+              "symmetries_discrete[0]: axis has no length");
+  expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: 77.7}]\n"),
+              "the discrete symmetries have no end");
+  expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1]}]\n"),
+              "angle_deg is missing");
+  expectHolds(error("unit: mm\nsymmetries_continuous: {axis: [0, 0, 1]}\n"), "a list of mappings");
+  expectHolds(error("unit: mm\npicks: [{name: a, pose: [0, 0, 0, 0, 0, 0, 2]}]\n"),
+              "picks[0]: pose [x, y, z, qx, qy, qz, qw] has a quaternion of length");
+  expectHolds(error("unit: mm\npicks: [{pose: [0, 0, 0, 0, 0, 0, 1]}]\n"), "name is missing");
+}
+
+TEST_F(PartFile, mayChangeSettingsWithinTheirRules)
+{
+  EXPECT_TRUE(load("unit: mm\ndetector: {min_score: 0.7}\n").detector.IsMap());
+  expectHolds(error("unit: mm\ndetector: {min_scor: 0.7}\n"),
+              "clip.yaml: detector: unknown key 'min_scor': the nearest known name is 'min_score'");
+  expectHolds(error("unit: mm\ndetector: {min_score: 7}\n"), "min_score is 7");
+}
+
+TEST_F(PartFile, findsMeshesOfPackages)
+{
+  const std::string text = "{unit: mm, mesh: 'package://robots/meshes/a.stl', model: a.ppf}";
+  const std::string path = folder_.write("clip.yaml", text);
+  const PartDescription part = loadPart(
+      path, [](const std::string& package) { return package == "robots" ? "/opt/robots" : ""; });
+  EXPECT_EQ(part.mesh_file, "/opt/robots/meshes/a.stl");
+  EXPECT_EQ(part.model_file, folder_.file("a.ppf"));
+  expectHolds(inputError([&] { loadPart(path, [](const std::string&) { return ""; }); }),
+              "mesh names the package 'robots', which is not found");
+}
+
+TEST_F(PartFile, findsPackagesAlongThePath)
+{
+  folder_.write("ws/checkout/package.xml", "<package><name>robots</name></package>");
+  folder_.write("other/package.xml", "<package><name>tools</name></package>");
+  const std::string roots = "/none:" + folder_.file("other") + ":" + folder_.file("ws");
+  ASSERT_EQ(setenv("ROS_PACKAGE_PATH", roots.c_str(), 1), 0);
+  EXPECT_EQ(findPackage("robots"), folder_.file("ws/checkout"));
+  EXPECT_EQ(findPackage("tools"), folder_.file("other"));
+  EXPECT_EQ(findPackage("nobody"), "");
+}
+}  // namespace
+}  // namespace ppf_bin_picking
