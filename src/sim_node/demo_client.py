@@ -169,6 +169,9 @@ def main():
     frame = answer.header.frame_id
     truths = truth_in(frame, rospy.get_param("~truth"), deadline_s) if answer.poses else []
     wrong = report(answer, part, truths)
+    end = time.monotonic() + rospy.get_param("~hold_s", 0)
+    while time.monotonic() < end and not rospy.is_shutdown():
+        time.sleep(0.1)
     return 0 if answer.poses and wrong == 0 else 1
 
 
