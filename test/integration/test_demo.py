@@ -49,8 +49,14 @@ class DemoTest(unittest.TestCase):
         self.assertAlmostEqual(turn, 0)
 
     def test_demo_ends_with_right_poses(self):
-        command = ["roslaunch", "ppf_bin_picking", "demo.launch"]
-        output = subprocess.run(command, capture_output=True, text=True, timeout=280).stdout
+        demo = subprocess.run(
+            ["roslaunch", "ppf_bin_picking", "demo.launch"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,  # roslaunch says there how its processes ended
+            text=True,
+            timeout=280,
+        )
+        output = demo.stdout
         self.assertRegex(output, r"demo_client-\d+\] has died!\s+process has finished cleanly")
         summary = re.search(r"(\d+) parts in the bin, (\d+) reliable poses, (\d+) wrong", output)
         self.assertIsNotNone(summary, output)
