@@ -197,9 +197,8 @@ void publishShots(ros::NodeHandle& private_nh, const CameraParams& params, const
   }
 }
 
-void run()
+void run(ros::NodeHandle& private_nh)
 {
-  ros::NodeHandle private_nh("~");
   const CameraParams params = readParams(private_nh);
   const auto part = ppf_bin_picking::loadPart(params.part);
   const auto loaded = ppf_bin_picking::loadMesh(part.mesh_file, part.unit);
@@ -220,9 +219,10 @@ void run()
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "simulated_camera");
+  ros::NodeHandle private_nh("~");  // out here, as the log ends with the last handle
   try
   {
-    ppf_bin_picking_ros::run();
+    ppf_bin_picking_ros::run(private_nh);
     return 0;
   }
   catch (const std::exception& error)

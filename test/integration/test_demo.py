@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import rostest
+from roslib.packages import find_node
 
 PACKAGE = Path(__file__).resolve().parents[2]
 client = SourceFileLoader("demo_client", str(PACKAGE / "src/sim_node/demo_client.py")).load_module()
@@ -47,6 +48,13 @@ class DemoTest(unittest.TestCase):
         self.assertAlmostEqual(surface, 0.005)
         self.assertAlmostEqual(center, 0.005)
         self.assertAlmostEqual(turn, 0)
+
+    def test_camera_names_a_misspelt_parameter(self):
+        node = find_node("ppf_bin_picking", "simulated_camera")[0]
+        command = [node, "_conut:=3", "__name:=other_camera"]  # parameters outlive their node
+        run = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("unknown key 'conut': the nearest known name is 'count'", run.stderr)
 
     def test_demo_ends_with_right_poses(self):
         demo = subprocess.run(
