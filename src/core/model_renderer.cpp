@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace ppf_bin_picking
 {
@@ -63,6 +65,17 @@ void placeWindow(const std::vector<ImageVertex>& vertices, const PinholeCamera& 
   rendered.triangle.resize(pixels);
 }
 
+/// Narrows [first, last] to where value + k * step >= 0.
+void keepNotNegative(float value, float step, float& first, float& last)
+{
+  if (step > 0)
+    first = std::max(first, -value / step);
+  else if (step < 0)
+    last = std::min(last, -value / step);
+  else if (value < 0)
+    last = -1;
+}
+
 /// Draws one triangle into the window's 1/z buffer, nearest surface wins.
 void drawTriangle(const ImageVertex& a, const ImageVertex& b, const ImageVertex& c,
                   std::uint32_t index, RenderedPart& rendered)
@@ -76,20 +89,25 @@ void drawTriangle(const ImageVertex& a, const ImageVertex& b, const ImageVertex&
   const int v1 = std::min(rendered.top + rendered.height - 1,
                           static_cast<int>(std::floor(std::max({a.v, b.v, c.v}))));
   const float scale = 1.0F / area;
+  // Weights of b and c grow by a constant from pixel to pixel; so does 1/z.
+  const float step_b = (c.v - a.v) * scale, step_c = -(b.v - a.v) * scale;
+  const float step_z = step_b * (b.inverse_z - a.inverse_z) + step_c * (c.inverse_z - a.inverse_z);
   for (int v = v0; v <= v1; ++v)
   {
-    const float dv = static_cast<float>(v) - a.v;
-    const std::size_t row = static_cast<std::size_t>(v - rendered.top) * rendered.width;
-    for (int u = u0; u <= u1; ++u)
+    const float du = static_cast<float>(u0) - a.u, dv = static_cast<float>(v) - a.v;
+    const float weight_b = du * step_b - dv * (c.u - a.u) * scale;
+    const float weight_c = du * step_c + dv * (b.u - a.u) * scale;
+    float first = 0, last = static_cast<float>(u1 - u0);
+    keepNotNegative(weight_b, step_b, first, last);
+    keepNotNegative(weight_c, step_c, first, last);
+    keepNotNegative(1 - weight_b - weight_c, -step_b - step_c, first, last);
+    const float inverse_z0 =
+        a.inverse_z + weight_b * (b.inverse_z - a.inverse_z) + weight_c * (c.inverse_z - a.inverse_z);
+    std::size_t pixel = static_cast<std::size_t>(v - rendered.top) * rendered.width +
+                        static_cast<std::size_t>(u0 - rendered.left) + static_cast<std::size_t>(std::ceil(first));
+    for (float k = std::ceil(first); k <= last; k += 1, ++pixel)
     {
-      const float du = static_cast<float>(u) - a.u;
-      const float weight_b = (du * (c.v - a.v) - dv * (c.u - a.u)) * scale;
-      const float weight_c = (dv * (b.u - a.u) - du * (b.v - a.v)) * scale;
-      const float weight_a = 1 - weight_b - weight_c;
-      if (weight_a < 0 || weight_b < 0 || weight_c < 0) continue;
-      const float inverse_z =
-          weight_a * a.inverse_z + weight_b * b.inverse_z + weight_c * c.inverse_z;
-      const std::size_t pixel = row + static_cast<std::size_t>(u - rendered.left);
+      const float inverse_z = inverse_z0 + k * step_z;
       if (inverse_z <= rendered.depth[pixel]) continue;
       rendered.depth[pixel] = inverse_z;
       rendered.triangle[pixel] = index;
@@ -98,24 +116,40 @@ void drawTriangle(const ImageVertex& a, const ImageVertex& b, const ImageVertex&
 }
 }  // namespace
 
-void renderPart(const TriangleMesh& mesh, const Eigen::Isometry3f& T_camera_model,
-                const PinholeCamera& camera, RenderedPart& rendered)
+RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
+{
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    normals.push_back((mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).normalized());
+    for (std::size_t k = 0; k < 3; ++k) ++edges[{triangle[k], triangle[(k + 1) % 3]}];
+  }
+  closed = std::all_of(edges.begin(), edges.end(),
+                       [&](const auto& edge)
+                       {
+                         const auto back = edges.find({edge.first.second, edge.first.first});
+                         return edge.second == 1 && back != edges.end() && back->second == 1;
+                       });
+}
+
+void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model, const PinholeCamera& camera,
+                RenderedPart& rendered)
 {
   thread_local std::vector<ImageVertex> vertices;
-  transformVertices(mesh, T_camera_model, camera, vertices);
+  transformVertices(part.mesh, T_camera_model, camera, vertices);
   placeWindow(vertices, camera, rendered);
-  rendered.normals.resize(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  rendered.normals.resize(part.normals.size());
+  const Eigen::Matrix3f rotation = T_camera_model.linear();
+  const Eigen::Vector3f camera_model = -(rotation.transpose() * T_camera_model.translation());
+  for (std::size_t i = 0; i < part.normals.size(); ++i)
   {
-    const auto& [i0, i1, i2] = mesh.triangles[i];
-    const Eigen::Vector3f& a = mesh.vertices[i0];
-    rendered.normals[i] =
-        T_camera_model.linear() * (mesh.vertices[i1] - a).cross(mesh.vertices[i2] - a).normalized();
-    if (vertices[i0].inverse_z == 0 || vertices[i1].inverse_z == 0 || vertices[i2].inverse_z == 0)
-      continue;
+    const auto& [i0, i1, i2] = part.mesh.triangles[i];
+    if (part.closed && part.normals[i].dot(camera_model - part.mesh.vertices[i0]) <= 0) continue;
+    rendered.normals[i] = rotation * part.normals[i];
+    if (vertices[i0].inverse_z == 0 || vertices[i1].inverse_z == 0 || vertices[i2].inverse_z == 0) continue;
     drawTriangle(vertices[i0], vertices[i1], vertices[i2], static_cast<std::uint32_t>(i), rendered);
   }
-  for (float& depth : rendered.depth)
-    depth = depth > 0 ? 1.0F / depth : 0.0F;
+  for (float& depth : rendered.depth) depth = depth > 0 ? 1.0F / depth : 0.0F;
 }
 }  // namespace ppf_bin_picking

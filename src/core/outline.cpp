@@ -74,31 +74,39 @@ std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamer
 OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, const Eigen::Vector3f& point_camera,
                           float gate_m, int reach_px)
 {
-  OutlineMatch match;
-  if (!(point_camera.z() > 0)) return match;
+  if (!(point_camera.z() > 0)) return {};
   const Eigen::Vector2f pixel = image.camera.project(point_camera);
-  bool on_surface = false;
+  bool on_surface = false, hidden = false;
+  int absent = 0, last_px = 0;
+  float last_z = 0;
   for (int t = -reach_px; t <= reach_px; ++t)
   {
     const Eigen::Vector2f at = pixel + static_cast<float>(t) * outline.direction;
-    const float expected_m = point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
           at.y() < static_cast<float>(image.camera.height - 1)))
-      return {OutlineEnd::kHidden, 0};
+      return {};
     const float z = image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
+    const float expected_m = point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     const float behind_m = z - expected_m;
-    if (z > 0 && std::abs(behind_m) <= gate_m)
+    if (z > 0 && std::abs(behind_m) <= gate_m && (on_surface || t <= 0))
     {
       on_surface = true;
-      match.offset_px = t;
+      last_px = t;
+      last_z = z;
       continue;
     }
-    if (z > 0 && behind_m < 0) return {OutlineEnd::kHidden, 0};
-    if (!on_surface) continue;
-    match.end = z > 0 ? OutlineEnd::kBehind : OutlineEnd::kMissing;
-    return match;
+    if (!on_surface)
+    {
+      hidden = hidden || (z > 0 && behind_m < 0);
+      absent += z > 0 && behind_m > 0 ? 1 : 0;
+      continue;
+    }
+    if (z == 0) return {OutlineEnd::kMissing, last_px};
+    if (behind_m > 0) return {OutlineEnd::kBehind, last_px};
+    return {z > last_z - gate_m ? OutlineEnd::kGoesOn : OutlineEnd::kHidden, last_px};  // rises, or something in front
   }
-  match.end = on_surface ? OutlineEnd::kGoesOn : OutlineEnd::kHidden;
-  return match;
+  if (on_surface) return {OutlineEnd::kGoesOn, last_px};
+  if (hidden) return {};
+  return {absent > reach_px ? OutlineEnd::kAbsent : OutlineEnd::kMissing, 0};
 }
 }  // namespace ppf_bin_picking

@@ -50,7 +50,7 @@ void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model, con
              VisiblePart& part)
 {
   thread_local RenderedPart view;
-  renderPart(model.data().mesh, T_camera_model, camera, view);
+  renderPart(model.renderable(), T_camera_model, camera, view);
   std::vector<SurfacePoint>& surface = part.surface;
   surface.clear();
   const auto covered = static_cast<std::size_t>(

@@ -37,6 +37,7 @@ UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
   const bool spread = sideSum(share.box) > config.max_spread_rel * model.diameter();
   if (config.mismatch_test && config.clustering == Clustering::kDbscan && spread)
     return UnreliableReason::kSpread;
+  if (config.mismatch_test && pose.slide_share > config.max_slide_share) return UnreliableReason::kSlippage;
   if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share)
     return UnreliableReason::kLowScore;
   return UnreliableReason::kNone;
@@ -49,6 +50,9 @@ std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const 
     return "the hypotheses spread over " + percent(sideSum(spread) / model.diameter()) +
            " of the part's diameter, more than max_spread_rel allows (" +
            percent(config.max_spread_rel) + ")";
+  if (pose.reason == UnreliableReason::kSlippage)
+    return "the measured surface goes on beyond " + percent(pose.slide_share) +
+           " of the outline that should stop a slide (max_slide_share " + percent(config.max_slide_share) + ")";
   return "the cloud confirms " + percent(pose.score) + " (min_score " + percent(config.min_score) +
          ") of the " + percent(pose.visible_fraction) + " (min_visible_share " +
          percent(config.min_visible_share) + ") of the part that nothing hides";
@@ -69,7 +73,7 @@ MismatchRegion regionOf(const DetectedPose& pose, const ClusterShare& share, con
   return region;
 }
 
-DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed)
+DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, double balance)
 {
   DetectedPose pose;
   pose.model = candidate.model;
@@ -80,6 +84,8 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed)
   pose.votes = candidate.votes;
   pose.visible_fraction = visibleFraction(candidate.evidence);
   pose.rms_error_m = candidate.evidence.rms_error_m;
+  pose.slide_share = candidate.evidence.slide_share;
+  pose.evidence_balance = balance / std::max(1.0, candidate.evidence.confirmed_weight);
   pose.cluster = candidate.cluster;
   return pose;
 }
@@ -98,7 +104,7 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
     DetectedPose pose =
-        poseOfCandidate(*best, best->evidence.confirmed_weight);
+        poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
         regionOf(pose, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
@@ -133,7 +139,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
-    DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed);
+    DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
     const PpfModel& model = *models[pose.model];
     pose.reason = reasonOf(pose, shares[i], model, config);
     pose.reliable = pose.reason == UnreliableReason::kNone;

@@ -73,6 +73,23 @@ void checkTable(const PpfModelData& data)
   for (const std::uint32_t entry : data.entries)
     requireThat((entry >> 16) < data.points.size(), "an entry names a point that does not exist");
 }
+/// The data as they are. @throw std::invalid_argument naming a contradiction.
+PpfModelData checked(PpfModelData data)
+{
+  DetectorConfig config;
+  config.model = data.parameters;
+  const std::vector<std::string> problems = config.problems();
+  if (!problems.empty()) throw std::invalid_argument(problems.front());
+  requireThat(std::isfinite(data.diameter_m) && data.diameter_m > 0,
+              "the diameter is not above zero");
+  requireThat(data.center.allFinite(), "the centre is not finite");
+  requireThat(!data.points.empty() && data.points.size() <= kMaxPoints,
+              "the number of points is out of range");
+  requireThat(data.points.size() == data.normals.size(), "points and normals differ in number");
+  checkMesh(data.mesh);
+  checkTable(data);
+  return data;
+}
 }  // namespace
 
 PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetries,
@@ -108,19 +125,9 @@ PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetri
 }
 
 PpfModel::PpfModel(PpfModelData data)
-    : data_(std::move(data)), symmetries_(data_.symmetries_discrete, data_.symmetries_continuous)
+    : data_(checked(std::move(data))),
+      symmetries_(data_.symmetries_discrete, data_.symmetries_continuous),
+      renderable_(data_.mesh)
 {
-  DetectorConfig config;
-  config.model = data_.parameters;
-  const std::vector<std::string> problems = config.problems();
-  if (!problems.empty()) throw std::invalid_argument(problems.front());
-  requireThat(std::isfinite(data_.diameter_m) && data_.diameter_m > 0,
-              "the diameter is not above zero");
-  requireThat(data_.center.allFinite(), "the centre is not finite");
-  requireThat(!data_.points.empty() && data_.points.size() <= kMaxPoints,
-              "the number of points is out of range");
-  requireThat(data_.points.size() == data_.normals.size(), "points and normals differ in number");
-  checkMesh(data_.mesh);
-  checkTable(data_);
 }
 }  // namespace ppf_bin_picking

@@ -7,6 +7,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kLeastScore = 0.4;  // poses scoring less are not worth showing
+
 struct Entry
 {
   double balance;
@@ -38,7 +40,7 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
     queue.push({evidenceBalance(candidates[i], candidates[i].confirmed_weight),
                 i, 0});
   std::vector<SelectedPose> selected;
-  while (!queue.empty() && queue.top().balance > 0)
+  while (!queue.empty())
   {
     const Entry best = queue.top();
     queue.pop();
@@ -50,7 +52,8 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
       queue.push({evidenceBalance(evidence, confirmed), best.candidate, selected.size()});
       continue;
     }
-    selected.push_back({best.candidate, confirmed});
+    if (poseScore(evidence, confirmed) < kLeastScore) continue;
+    selected.push_back({best.candidate, confirmed, best.balance});
     for (const PoseEvidence::Pixel& pixel : evidence.confirmed)
       owned[pixel.index] = 1;
   }

@@ -80,6 +80,8 @@ void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
   const float focal = 0.85F * kViewSize_px * kViewDistanceRel;
   const PinholeCamera camera{kViewSize_px, kViewSize_px,     focal,
                              focal,        kViewSize_px / 2, kViewSize_px / 2};
+  RenderableMesh part(mesh);
+  part.closed = false;  // the winding may be inside out
   RenderedPart view;
   for (int i = 0; i < kViews; ++i)
   {
@@ -89,7 +91,7 @@ void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
         Eigen::Quaternionf::FromTwoVectors(direction, -Eigen::Vector3f::UnitZ()).toRotationMatrix();
     T_camera_model.translation() =
         Eigen::Vector3f(0, 0, distance) - T_camera_model.linear() * center;
-    renderPart(mesh, T_camera_model, camera, view);
+    renderPart(part, T_camera_model, camera, view);
     for (SurfaceSample& sample : samples)
     {
       const Eigen::Vector3f p = T_camera_model * sample.point;

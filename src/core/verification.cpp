@@ -1,8 +1,10 @@
 #include "ppf_bin_picking/core/verification.hpp"
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/outline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ppf_bin_picking
@@ -12,8 +14,8 @@ namespace
 constexpr float kUnseenFacing = 0.25F;    // cosine to the line of sight below which a surface need not be seen
 constexpr float kSeenFacing = 0.6F;      // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;        // width of the ring along the outline where contradictions fade
-constexpr float kEdgeReachRel = 0.03F;   // how far beyond the outline the surface must have ended
-constexpr float kMinEdgeFacing = 0.25F;  // flatter surfaces cannot be continued beyond the outline
+constexpr float kEdgeReachRel = 0.04F;   // how far across the outline the surface is followed
+constexpr int kSlideDirections = 8;      // over half a turn
 constexpr double kMissingWeight = 0.4;   // of a contradiction
 constexpr double kEdgeWeight = 4.0;      // of a missing edge, in pixels of surface
 
@@ -38,7 +40,7 @@ public:
     const float depth_m = view.width > 0 ? *std::max_element(view.depth.begin(), view.depth.end()) : 1.0F;
     const float diameter_px = diameter_m * image.camera.fx / depth_m;
     ring_px_ = std::max(1, static_cast<int>(std::lround(kRingRel * diameter_px)));
-    edge_reach_px_ = std::max(2, static_cast<int>(std::lround(kEdgeReachRel * diameter_px)));
+    edge_reach_px_ = std::clamp(static_cast<int>(std::lround(kEdgeReachRel * diameter_px)), 2, kOutlineReach_px);
   }
 
   PoseEvidence run()
@@ -46,6 +48,7 @@ public:
     for (int row = 0; row < view_.height; ++row)
       for (int column = 0; column < view_.width; ++column)
         if (view_.depthAt(column, row) > 0) comparePixel(column, row);
+    compareOutline();
     const auto count = static_cast<float>(evidence_.confirmed.size());
     if (count > 0) evidence_.rms_error_m = std::sqrt(squared_error_ / count);
     return std::move(evidence_);
@@ -102,8 +105,6 @@ private:
     evidence_.confirmed.push_back({static_cast<std::uint32_t>(index), weight});
     evidence_.confirmed_weight += weight;
     squared_error_ += behind_m * behind_m;
-    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-      if (endsTowards(column, row, du, dv)) compareOutline(pixel, column, row, du, dv);
   }
 
   /// Pixels to the part's outline along rows and columns, at most the ring's width. There sensors mix what lies
@@ -125,25 +126,27 @@ private:
     return beyond == 0;
   }
 
-  /// Does the measured surface go on where the part's has ended?
-  void compareOutline(const ModelPixel& pixel, int column, int row, int du, int dv)
+  /// Compares the outline, and finds the direction in which it would least stop a slide.
+  void compareOutline()
   {
-    const int u = view_.left + column + edge_reach_px_ * du;
-    const int v = view_.top + row + edge_reach_px_ * dv;
-    if (u < 0 || v < 0 || u >= image_.camera.width || v >= image_.camera.height) return;
-    const float z = image_.depth[image_.index(u, v)];
-    const Eigen::Vector3f ray = image_.camera.ray(static_cast<float>(u), static_cast<float>(v));
-    const float facing = -pixel.normal.dot(ray) / ray.norm();
-    if (z == 0 || facing < kMinEdgeFacing) return;
-    const float behind_m = pixel.normal.dot(pixel.point - z * ray);
-    if (behind_m > gate_m_)
-      ++evidence_.edge_confirmed;
-    else if (behind_m > -gate_m_)
+    std::array<double, kSlideDirections> held{}, broken{};
+    for (const OutlinePoint& point : outlineOf(view_, image_.camera, 1))
     {
-      const Eigen::Vector3f& normal = image_.normals[image_.index(u, v)];
-      const bool goes_on = normal.isZero() || normal.dot(pixel.normal) >= min_normal_cosine_;
-      ++(goes_on ? evidence_.edge_missing : evidence_.edge_confirmed);
+      const OutlineEnd end = matchOutline(image_, point, point.point, gate_m_, edge_reach_px_).end;
+      if (end == OutlineEnd::kHidden || end == OutlineEnd::kMissing) continue;
+      const bool holds = end == OutlineEnd::kBehind;
+      ++(holds ? evidence_.outline_held : evidence_.outline_broken);
+      for (int i = 0; i < kSlideDirections; ++i)
+      {
+        const auto angle = static_cast<float>(M_PI * i / kSlideDirections);
+        const float cosine = point.direction.dot(Eigen::Vector2f(std::cos(angle), std::sin(angle)));
+        const float stops = cosine * cosine * cosine * cosine;
+        (holds ? held : broken)[static_cast<std::size_t>(i)] += stops;
+      }
     }
+    for (std::size_t i = 0; i < kSlideDirections; ++i)
+      if (held[i] + broken[i] > 0)
+        evidence_.slide_share = std::max(evidence_.slide_share, broken[i] / (held[i] + broken[i]));
   }
 
   const RangeImage& image_;
@@ -161,14 +164,14 @@ PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
   thread_local RenderedPart view;
-  renderPart(model.data().mesh, T_camera_model, image.camera, view);
+  renderPart(model.renderable(), T_camera_model, image.camera, view);
   return Comparison(image, view, config, static_cast<float>(model.diameter())).run();
 }
 
 double poseScore(const PoseEvidence& evidence, double confirmed)
 {
   const double against = evidence.looked_through + evidence.wrong_normal + evidence.outside +
-                         kMissingWeight * evidence.missing + kEdgeWeight * evidence.edge_missing +
+                         kMissingWeight * evidence.missing + kEdgeWeight * evidence.outline_broken +
                          evidence.confirmed_weight - confirmed;
   return confirmed > 0 ? confirmed / (confirmed + against) : 0.0;
 }
@@ -178,7 +181,7 @@ double evidenceBalance(const PoseEvidence& evidence, double confirmed)
   const double claimed_by_others = evidence.confirmed_weight - confirmed;
   return confirmed - 3.0 * evidence.looked_through - 3.6 * evidence.wrong_normal -
          0.56 * evidence.missing - 0.3 * evidence.occluded - 1.0 * evidence.outside -
-         claimed_by_others - 10.0 * evidence.edge_missing + 3.0 * evidence.edge_confirmed;
+         claimed_by_others - 10.0 * evidence.outline_broken + 3.0 * evidence.outline_held;
 }
 
 double visibleFraction(const PoseEvidence& evidence)

@@ -69,7 +69,8 @@ struct DetectorConfig
   int icp_iterations = 12;       ///< Steps of point-to-plane ICP. In [0, 100].
   double depth_gate_rel = 0.02;  ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;  ///< ... and within this turn of the normal. In (0, pi/2].
-  double min_score = 0.6;        ///< Poses scoring less are not reliable. In [0, 1].
+  double min_score = 0.5;          ///< Poses scoring less are not reliable. In [0, 1].
+  double max_slide_share = 0.7;    ///< Poses whose outline could slide more freely are not reliable. In [0, 1].
   double min_visible_share =
       0.2;  ///< Poses showing less of their surface are not reliable. In [0, 1].
 
@@ -112,6 +113,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);
   visit("min_score", config.min_score);
+  visit("max_slide_share", config.max_slide_share);
   visit("min_visible_share", config.min_visible_share);
   visit("threads", config.threads);
   visit("time_limit_s", config.time_limit_s);

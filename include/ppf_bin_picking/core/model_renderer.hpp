@@ -11,6 +11,16 @@
 
 namespace ppf_bin_picking
 {
+/// A mesh made ready for drawing. Copies what it needs.
+struct RenderableMesh
+{
+  explicit RenderableMesh(const TriangleMesh& mesh);
+
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector3f> normals;  ///< Of each triangle, as wound; unit length.
+  bool closed = false;  ///< Every edge has two triangles, wound alike: then none is seen from behind.
+};
+
 /// A window of the image with the part in it.
 struct RenderedPart
 {
@@ -20,7 +30,7 @@ struct RenderedPart
   int height = 0;                        ///< [px]
   std::vector<float> depth;              ///< Row after row, along z [m]; 0 where the part is not.
   std::vector<std::uint32_t> triangle;   ///< The triangle seen; undefined where depth is 0.
-  std::vector<Eigen::Vector3f> normals;  ///< Of each triangle, camera frame, unit length, as wound.
+  std::vector<Eigen::Vector3f> normals;  ///< Of each triangle drawn, camera frame, unit length, as wound.
 
   float depthAt(int column, int row) const
   {
@@ -28,9 +38,9 @@ struct RenderedPart
   }
 };
 
-/// Renders a mesh into a depth window by a z-buffer. Surfaces are seen from both sides.
+/// Renders a mesh into a depth window by a z-buffer. Surfaces that are not closed are seen from both sides.
 /// @param T_camera_model  Mesh frame to camera frame [m].
 /// @param rendered        Overwritten; its memory is used again.
-void renderPart(const TriangleMesh& mesh, const Eigen::Isometry3f& T_camera_model,
+void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model,
                 const PinholeCamera& camera, RenderedPart& rendered);
 }  // namespace ppf_bin_picking

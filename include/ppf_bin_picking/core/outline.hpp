@@ -33,8 +33,9 @@ enum class OutlineEnd
 {
   kBehind,   ///< The surface ends there: farther out the cloud lies behind.
   kMissing,  ///< Farther out nothing was measured; the surface may have ended there.
-  kGoesOn,   ///< The surface goes on as far as was looked.
-  kHidden,   ///< Something lies in front, or the part's surface is not there at all.
+  kGoesOn,   ///< The surface goes on beyond the outline, straight or rising.
+  kAbsent,   ///< The part's surface is not there; the cloud lies behind it.
+  kHidden,   ///< Something else lies in front.
 };
 
 /// Where the measured surface ends.

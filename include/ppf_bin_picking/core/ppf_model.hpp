@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ppf_bin_picking/core/detector_config.hpp"
+#include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/symmetry.hpp"
 #include "ppf_bin_picking/core/triangle_mesh.hpp"
 
@@ -48,10 +49,12 @@ public:
   const PpfModelData& data() const { return data_; }
   const ModelParameters& parameters() const { return data_.parameters; }
   const SymmetryGroup& symmetries() const { return symmetries_; }
+  const RenderableMesh& renderable() const { return renderable_; }
   double diameter() const { return data_.diameter_m; }  ///< [m]
 
 private:
   PpfModelData data_;
   SymmetryGroup symmetries_;
+  RenderableMesh renderable_;
 };
 }  // namespace ppf_bin_picking

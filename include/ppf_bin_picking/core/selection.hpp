@@ -12,7 +12,8 @@ namespace ppf_bin_picking
 struct SelectedPose
 {
   std::size_t candidate = 0;  ///< Index into the evidence given.
-  double confirmed = 0;       ///< Its confirmed pixels that no better pose explains.
+  double confirmed = 0;       ///< Weight of its confirmed pixels that no better pose explains.
+  double balance = 0;         ///< Evidence for it after the better ones, see evidenceBalance().
 };
 
 /// Lets poses compete for pixels: again and again the pose with the best balance of evidence is

@@ -29,8 +29,9 @@ struct PoseEvidence
   double missing = 0;            ///< Nothing was measured.
   double occluded = 0;           ///< The cloud lies in front.
   double outside = 0;            ///< Explained by a surface outside the region of interest.
-  double edge_confirmed = 0;     ///< Outline pixels beyond which the surface ends.
-  double edge_missing = 0;       ///< Outline pixels beyond which the same surface goes on.
+  double outline_held = 0;         ///< Outline pixels where the measured surface ends, too.
+  double outline_broken = 0;       ///< Outline pixels beyond which the surface goes on, or where it is absent.
+  double slide_share = 0;          ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
   float rms_error_m = 0;         ///< Of the confirmed pixels, along their normals.
 
   /// Weight of the pixels that nothing in front hides.
