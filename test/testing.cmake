@@ -2,7 +2,7 @@
 # scripts/test leaves it out, by name, where that folder is absent.
 #
 #   add_unit_test(FOLDER NAME LIBRARY... [DATA])   test/FOLDER/NAME.cpp
-#   add_integration_test(NAME LIBRARY... [DATA])   test/integration/NAME.test and NAME.cpp
+#   add_integration_test(NAME [DATA])              test/integration/NAME.test
 
 function(add_unit_test folder name)
   cmake_parse_arguments(arg "DATA" "" "" ${ARGN})
@@ -16,9 +16,7 @@ endfunction()
 
 function(add_integration_test name)
   cmake_parse_arguments(arg "DATA" "" "" ${ARGN})
-  add_rostest_gtest(${name} test/integration/${name}.test test/integration/${name}.cpp)
-  target_include_directories(${name} PRIVATE test)
-  target_link_libraries(${name} ${arg_UNPARSED_ARGUMENTS})
+  add_rostest(test/integration/${name}.test)
   if(arg_DATA)
     set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_integration_${name}.test
                          PROPERTIES LABELS data)

@@ -29,9 +29,13 @@ sensor_msgs::PointCloud2ConstPtr CloudKeeper::waitForNext(
     const ros::Time& after, const SteadyClock::time_point deadline) const
 {
   std::unique_lock<std::mutex> lock(mutex_);
+  const std::uint64_t received_before = received_;
   const std::uint64_t drops_before = drops_;
   const auto isNext = [&]
-  { return cloud_ && (cloud_->header.stamp > after || drops_ != drops_before); };
+  {
+    return cloud_ && received_ != received_before &&
+           (cloud_->header.stamp > after || drops_ != drops_before);
+  };
   changed_.wait_until(lock, deadline, [&] { return stopped_ || isNext(); });
   return !stopped_ && isNext() ? cloud_ : nullptr;
 }

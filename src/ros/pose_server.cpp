@@ -101,6 +101,8 @@ bool PoseServer::onRequest(const Request& request, Response& response)
     return true;
   }
   answer(request, response);
+  ROS_INFO_STREAM(private_nh_.getNamespace()
+                  << ": status " << response.status << ": " << response.message);
   const std::lock_guard<std::mutex> outcome_lock(outcome_mutex_);
   last_outcome_ = {response.status, response.message};
   return true;
@@ -181,7 +183,7 @@ sensor_msgs::PointCloud2ConstPtr PoseServer::nextCloud(const Request& request) c
   const std::uint64_t older = clouds_.received() - received_before;
   std::ostringstream text;
   text << "No cloud stamped after the call came on " << cloud_subscriber_.getTopic() << " within "
-       << timeout_s << " s ";
+       << timeout_s << " s, ";
   if (older > 0)
     text << "but " << older << " with an older stamp: check the clock of the camera's driver";
   else

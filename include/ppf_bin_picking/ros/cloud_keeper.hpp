@@ -27,8 +27,9 @@ public:
   /// The cloud received last; null if none was since the start or since drop().
   sensor_msgs::PointCloud2ConstPtr newest() const;
 
-  /// Waits for a cloud whose stamp is later than `after`. If drop() comes in between, the clock has
-  /// jumped back and any cloud received since will do.
+  /// Waits for a cloud that is received from now on and whose stamp is later than `after`: a cloud
+  /// that is there already was not taken later, whatever the camera's clock says. If drop() comes
+  /// in between, the clock has jumped back and any stamp will do.
   /// @return Null at the deadline, and at once after stop().
   sensor_msgs::PointCloud2ConstPtr waitForNext(const ros::Time& after,
                                                SteadyClock::time_point deadline) const;
