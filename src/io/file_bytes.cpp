@@ -11,6 +11,18 @@
 namespace ppf_bin_picking
 {
 namespace fs = std::filesystem;
+namespace
+{
+std::string temporaryFor(const std::string& path)
+{
+  return path + ".part" + std::to_string(getpid());
+}
+
+[[noreturn]] void refuse(const std::string& path)
+{
+  throw InputError(path + " cannot be written: check that its folder exists and has room");
+}
+}  // namespace
 
 std::string readFile(const std::string& path, std::size_t max_bytes)
 {
@@ -28,9 +40,18 @@ std::string readFile(const std::string& path, std::size_t max_bytes)
   return bytes;
 }
 
+void requireWritable(const std::string& path)
+{
+  const std::string temporary = temporaryFor(path);
+  const bool writable = std::ofstream(temporary, std::ios::binary).is_open();
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  if (!writable || fs::is_directory(path, ignored)) refuse(path);
+}
+
 void writeFile(const std::string& path, const std::string& bytes)
 {
-  const std::string temporary = path + ".part" + std::to_string(getpid());
+  const std::string temporary = temporaryFor(path);
   std::ofstream stream(temporary, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
@@ -39,6 +60,6 @@ void writeFile(const std::string& path, const std::string& bytes)
   if (stream && !error) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw InputError(path + " cannot be written: check that its folder exists and has room");
+  refuse(path);
 }
 }  // namespace ppf_bin_picking

@@ -1,7 +1,7 @@
 # Files: meshes, clouds, depth images, models, YAML and JSON. No ROS.
 find_package(assimp REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(OpenCV REQUIRED COMPONENTS core imgcodecs)
+find_package(OpenCV REQUIRED COMPONENTS core imgcodecs imgproc)
 find_package(PCL REQUIRED COMPONENTS common io)
 find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)

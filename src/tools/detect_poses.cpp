@@ -54,6 +54,7 @@ void reportTimes(const DetectionResult& result)
 
 void detectPoses(const Options& options)
 {
+  requireWritable(options.output);
   ToolPart part = options.part.load();
   if (options.threads >= 0) part.config.threads = options.threads;
   const Detector detector(part.config);

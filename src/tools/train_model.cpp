@@ -1,4 +1,5 @@
 /// @file train_model: part file in, model file out.
+#include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/model_io.hpp"
 
 #include "tool_support.hpp"
@@ -14,6 +15,7 @@ int main(int argc, char** argv)
   return runTool(app, argc, argv,
                  [&]
                  {
+                   requireWritable(output);
                    const ToolPart part = part_options.load();
                    saveModel(output, trainedModel(part), part.mesh_checksum);
                    report("wrote " + output);

@@ -41,6 +41,19 @@ inline std::string textStl(const std::vector<Facet>& facets,
   return text + end;
 }
 
+/// Along the normal of the first three corners.
+inline std::array<float, 3> normalOf(const Facet& facet)
+{
+  std::array<float, 3> a{};
+  std::array<float, 3> b{};
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    a[k] = facet[1][k] - facet[0][k];
+    b[k] = facet[2][k] - facet[0][k];
+  }
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// The solid as binary STL.
 inline std::string binaryStl(const std::vector<Facet>& facets, std::uint32_t counter,
                              std::string header = "")
@@ -49,7 +62,8 @@ inline std::string binaryStl(const std::vector<Facet>& facets, std::uint32_t cou
   header.append(reinterpret_cast<const char*>(&counter), sizeof counter);
   for (const Facet& facet : facets)
   {
-    header.append(12, '\0');
+    const std::array<float, 3> normal = normalOf(facet);
+    header.append(reinterpret_cast<const char*>(normal.data()), sizeof normal);
     for (const Corner& corner : facet)
       header.append(reinterpret_cast<const char*>(corner.data()), sizeof corner);
     header.append(2, '\0');

@@ -1,0 +1,214 @@
+#include "ppf_bin_picking/io/result_io.hpp"
+
+#include "support/files.hpp"
+#include "support/small_png.hpp"
+#include "support/stl_text.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+
+extern char** environ;
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr int kBadInput = 2;
+const char* const kPart = "unit: m\ndetector: {step_rel: 0.1}\n";
+
+/// How a program ended and what it printed.
+struct Outcome
+{
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+class CommandLine : public testing::Test
+{
+protected:
+  /// Runs a tool that stands beside this test.
+  Outcome run(const std::string& tool, std::vector<std::string> arguments) const
+  {
+    const auto here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    arguments.insert(arguments.begin(), (here / tool).string());
+    std::vector<char*> argv;
+    for (std::string& argument : arguments)
+      argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    const int flags = O_CREAT | O_WRONLY | O_TRUNC;
+    const std::string out = folder_.file("stdout");
+    const std::string err = folder_.file("stderr");
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
+    pid_t child = 0;
+    const int error = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) throw std::runtime_error("cannot run " + arguments[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out), contentOf(err)};
+  }
+
+  /// Expects exit status 2 and one line on stderr that names the tool and holds a text.
+  void expectRefused(const std::string& tool, const std::vector<std::string>& arguments,
+                     const std::string& part) const
+  {
+    SCOPED_TRACE(tool + " " + part);
+    const Outcome outcome = run(tool, arguments);
+    EXPECT_EQ(outcome.status, kBadInput);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.find(tool + ": "), 0U) << outcome.err;
+    expectHolds(outcome.err, part);
+    EXPECT_FALSE(std::filesystem::exists(result_));
+  }
+
+  /// Arguments of detect_poses for the small scene, then more.
+  std::vector<std::string> detect(const std::vector<std::string>& more = {}) const
+  {
+    std::vector<std::string> all = {"--part",   part_,   "--depth",  depth_,
+                                    "--camera", camera_, "--output", result_};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  /// A plane with a step, in which no tetrahedron is found.
+  static std::string plane()
+  {
+    std::vector<std::uint16_t> levels(64 * 48, 6000);
+    std::fill(levels.begin(), levels.begin() + 64 * 20, std::uint16_t{5900});
+    return pngOf(levels, 64);
+  }
+
+  TemporaryFolder folder_;
+  const std::string mesh_ = folder_.write("part/model.stl", binaryStl(tetrahedron(), 4));
+  const std::string part_ = folder_.write("part/part.yaml", kPart);
+  const std::string depth_ = folder_.write("depth.png", plane());
+  const std::string camera_ = folder_.write(
+      "camera.yaml",
+      "{width: 64, height: 48, fx: 60.0, fy: 60.0, cx: 31.5, cy: 23.5, depth_unit_m: 0.001, "
+      "frame_id: cam}");
+  const std::string roi_ = folder_.write("roi.yaml", "{min: [-9, -9, 1], max: [9, 9, 9]}");
+  const std::string model_ = folder_.file("part.ppf");
+  const std::string result_ = folder_.file("result.json");
+};
+
+TEST_F(CommandLine, trainsAndDetectsAndChecks)
+{
+  EXPECT_EQ(run("train_model", {"--part", part_, "--output", model_}).status, 0);
+  const Outcome outcome = run("detect_poses", detect({"--model", model_, "--roi", roi_}));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  expectHolds(outcome.err, " ms  voting");
+  const ResultFile file = loadResult(result_);
+  EXPECT_EQ(file.frame_id, "cam");
+  EXPECT_EQ(file.train_seconds, 0);
+  EXPECT_GT(file.result.seconds, 0);
+  EXPECT_EQ(file.result.roi_points, 64U * 48U);
+
+  const std::string picture = folder_.file("poses.png");
+  const Outcome check = run("check_poses", {result_, "--part", part_, "--depth", depth_, "--camera",
+                                            camera_, "--all", "--image", picture});
+  EXPECT_EQ(check.status, 0) << check.err;
+  expectHolds(check.out, " suspicious\n");
+  EXPECT_EQ(contentOf(picture).substr(1, 3), "PNG");
+}
+
+TEST_F(CommandLine, trainsFirstWithoutAModel)
+{
+  const Outcome outcome = run("detect_poses", detect({"--threads", "1"}));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(loadResult(result_).train_seconds, 0);
+}
+
+TEST_F(CommandLine, givesTheSameBytesTwice)
+{
+  const auto stripped = [&]
+  {
+    ResultFile file = loadResult(result_);
+    file.train_seconds = file.result.seconds = 0;
+    file.result.stages.clear();
+    return toJson(file);
+  };
+  ASSERT_EQ(run("detect_poses", detect({"--threads", "1"})).status, 0);
+  const std::string first = stripped();
+  ASSERT_EQ(run("detect_poses", detect({"--threads", "2"})).status, 0);
+  EXPECT_EQ(stripped(), first);
+}
+
+TEST_F(CommandLine, explainsItself)
+{
+  for (const char* tool : {"train_model", "detect_poses", "check_poses"})
+  {
+    const Outcome outcome = run(tool, {"--help"});
+    EXPECT_EQ(outcome.status, 0);
+    expectHolds(outcome.out, "--part");
+  }
+}
+
+TEST_F(CommandLine, refusesBadArguments)
+{
+  expectRefused("train_model", {}, "--part is required");
+  expectRefused("train_model", {"--part", part_}, "--output is required");
+  expectRefused("train_model", {"--part", part_, "--output", model_, "--fast"}, "--fast");
+  expectRefused("detect_poses", {"--part", part_, "--output", result_}, "no scene given");
+  expectRefused("detect_poses", {"--part", part_, "--output", result_, "--depth", depth_},
+                "--camera");
+  expectRefused("detect_poses", detect({"--cloud", "a.pcd"}), "--cloud");
+  expectRefused("detect_poses", detect({"--threads", "-1"}), "--threads");
+  expectRefused("detect_poses", detect({"--threads", "two"}), "--threads");
+  expectRefused("detect_poses",
+                {"--part", part_, "--output", result_, "--cloud", "a.pcd", "--cloud-unit", "cm"},
+                "--cloud-unit is 'cm': give m or mm");
+  expectRefused("check_poses", {"--part", part_}, "result is required");
+}
+
+TEST_F(CommandLine, refusesBadFiles)
+{
+  expectRefused("train_model", {"--part", "none.yaml", "--output", model_},
+                "none.yaml does not exist");
+  expectRefused("train_model", {"--part", part_, "--output", folder_.file("none/part.ppf")},
+                "cannot be written");
+  expectRefused("detect_poses", detect({"--config", folder_.write("c.yaml", "lamda: 1\n")}),
+                "unknown key 'lamda': the nearest known name is 'lambda'");
+  expectRefused("detect_poses", detect({"--config", folder_.write("c.yaml", "lambda: 1e-1\n")}),
+                "lambda is '1e-1'");
+  expectRefused("detect_poses", detect({"--roi", folder_.write("r.yaml", "min: [0, 0, 0]\n")}),
+                "max is missing");
+  expectRefused("detect_poses", detect({"--model", mesh_}), "is no model file");
+  folder_.write("depth.png", plane().substr(0, 100));
+  expectRefused("detect_poses", detect(), "it is cut off");
+  expectRefused("check_poses", {camera_, "--part", part_, "--depth", depth_, "--camera", camera_},
+                "is no result of detect_poses");
+  folder_.write("part/model.stl", "solid\nendsolid\n");
+  expectRefused("detect_poses", detect(), "holds no finite surface");
+}
+
+TEST_F(CommandLine, refusesAModelThatDoesNotFit)
+{
+  ASSERT_EQ(run("train_model", {"--part", part_, "--output", model_}).status, 0);
+  const std::string config = folder_.write("c.yaml", "n_angle: 24\n");
+  expectRefused("detect_poses", detect({"--model", model_, "--config", config}), "n_angle");
+  folder_.write("part/part.yaml", "unit: mm\ndetector: {step_rel: 0.1}\n");
+  expectRefused("detect_poses", detect({"--model", model_}), "was trained from another mesh than");
+  folder_.write("part/part.yaml",
+                std::string(kPart) + "symmetries_discrete: [{axis: [1, 1, 1], angle_deg: 120}]\n");
+  expectRefused("detect_poses", detect({"--model", model_}), "with other symmetries than");
+}
+
+TEST_F(CommandLine, refusesAPartLargerThanTheRegion)
+{
+  const std::string small = folder_.write("r.yaml", "{min: [0, 0, 1], max: [0.1, 0.1, 1.1]}");
+  const Outcome outcome = run("detect_poses", detect({"--roi", small}));
+  EXPECT_EQ(outcome.status, kBadInput);
+  expectHolds(outcome.err, "the mesh's unit is probably wrong");
+}
+}  // namespace
+}  // namespace ppf_bin_picking
