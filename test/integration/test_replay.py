@@ -106,6 +106,7 @@ class ReplayTest(unittest.TestCase):
             self.assertEqual(marker.pose, pose.pose.pose)
             self.assertGreater(marker.color.g, marker.color.r + marker.color.b)
         regions = self.answer.mismatching_regions
+        self.assertGreater(len(regions), 0)
         for name in ("mismatching_regions", "mismatching_poses"):
             self.assertEqual(len(by_name.get(name, [])), len(regions))
             for marker in by_name.get(name, []):
