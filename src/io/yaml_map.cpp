@@ -57,7 +57,7 @@ YAML::Node loadYaml(const std::string& path)
   catch (const YAML::Exception& error)
   {
     throw InputError(path + ": line " + std::to_string(error.mark.line + 1) +
-                     " is not valid YAML: " + error.msg);
+                     " is not valid YAML (" + error.msg + "): mend it");
   }
 }
 

@@ -91,7 +91,7 @@ TEST(LoadYaml, namesTheLineOfAFault)
 {
   const TemporaryFolder folder;
   expectHolds(inputError([&] { loadYaml(folder.write("f.yaml", "a: 1\nb: [1, 2\n")); }),
-              "f.yaml: line 3 is not valid YAML");
+              "f.yaml: line 3 is not valid YAML (");
 }
 
 TEST(LoadYaml, refusesFilesThatAreNotThereOrTooLarge)
