@@ -101,10 +101,11 @@ void drawTriangle(const ImageVertex& a, const ImageVertex& b, const ImageVertex&
     keepNotNegative(weight_b, step_b, first, last);
     keepNotNegative(weight_c, step_c, first, last);
     keepNotNegative(1 - weight_b - weight_c, -step_b - step_c, first, last);
-    const float inverse_z0 =
-        a.inverse_z + weight_b * (b.inverse_z - a.inverse_z) + weight_c * (c.inverse_z - a.inverse_z);
+    const float inverse_z0 = a.inverse_z + weight_b * (b.inverse_z - a.inverse_z) +
+                             weight_c * (c.inverse_z - a.inverse_z);
     std::size_t pixel = static_cast<std::size_t>(v - rendered.top) * rendered.width +
-                        static_cast<std::size_t>(u0 - rendered.left) + static_cast<std::size_t>(std::ceil(first));
+                        static_cast<std::size_t>(u0 - rendered.left) +
+                        static_cast<std::size_t>(std::ceil(first));
     for (float k = std::ceil(first); k <= last; k += 1, ++pixel)
     {
       const float inverse_z = inverse_z0 + k * step_z;
@@ -122,8 +123,10 @@ RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
   for (const auto& triangle : mesh.triangles)
   {
     const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
-    normals.push_back((mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).normalized());
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{triangle[k], triangle[(k + 1) % 3]}];
+    normals.push_back(
+        (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a).normalized());
+    for (std::size_t k = 0; k < 3; ++k)
+      ++edges[{triangle[k], triangle[(k + 1) % 3]}];
   }
   closed = std::all_of(edges.begin(), edges.end(),
                        [&](const auto& edge)
@@ -133,8 +136,8 @@ RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
                        });
 }
 
-void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model, const PinholeCamera& camera,
-                RenderedPart& rendered)
+void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model,
+                const PinholeCamera& camera, RenderedPart& rendered)
 {
   thread_local std::vector<ImageVertex> vertices;
   transformVertices(part.mesh, T_camera_model, camera, vertices);
@@ -147,9 +150,11 @@ void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_mo
     const auto& [i0, i1, i2] = part.mesh.triangles[i];
     if (part.closed && part.normals[i].dot(camera_model - part.mesh.vertices[i0]) <= 0) continue;
     rendered.normals[i] = rotation * part.normals[i];
-    if (vertices[i0].inverse_z == 0 || vertices[i1].inverse_z == 0 || vertices[i2].inverse_z == 0) continue;
+    if (vertices[i0].inverse_z == 0 || vertices[i1].inverse_z == 0 || vertices[i2].inverse_z == 0)
+      continue;
     drawTriangle(vertices[i0], vertices[i1], vertices[i2], static_cast<std::uint32_t>(i), rendered);
   }
-  for (float& depth : rendered.depth) depth = depth > 0 ? 1.0F / depth : 0.0F;
+  for (float& depth : rendered.depth)
+    depth = depth > 0 ? 1.0F / depth : 0.0F;
 }
 }  // namespace ppf_bin_picking

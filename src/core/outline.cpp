@@ -7,12 +7,13 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr float kPlaneFacing = 0.3F;   // flatter surfaces are not extended beyond the outline
+constexpr float kPlaneFacing = 0.3F;    // flatter surfaces are not extended beyond the outline
 constexpr int kDirectionRadius_px = 2;  // window that gives the outline's direction
 
 bool covered(const RenderedPart& view, int column, int row)
 {
-  return column >= 0 && row >= 0 && column < view.width && row < view.height && view.depthAt(column, row) > 0;
+  return column >= 0 && row >= 0 && column < view.width && row < view.height &&
+         view.depthAt(column, row) > 0;
 }
 
 /// From the part's pixels to the others around a pixel; zero if they balance.
@@ -21,15 +22,18 @@ Eigen::Vector2f outwardDirection(const RenderedPart& view, int column, int row)
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   for (int dr = -kDirectionRadius_px; dr <= kDirectionRadius_px; ++dr)
     for (int dc = -kDirectionRadius_px; dc <= kDirectionRadius_px; ++dc)
-      if (!covered(view, column + dc, row + dr)) sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
+      if (!covered(view, column + dc, row + dr))
+        sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
   const float length = sum.norm();
   return length > 1 ? Eigen::Vector2f(sum / length) : Eigen::Vector2f::Zero();
 }
 
 /// Relative depths along the direction: the part's where it is, its plane's beyond.
-void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int column, int row, OutlinePoint& outline)
+void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+                 OutlinePoint& outline)
 {
-  Eigen::Vector3f normal = view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
+  Eigen::Vector3f normal =
+      view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
   const float z0 = view.depthAt(column, row);
   const float facing = std::abs(normal.dot(outline.point)) / outline.point.norm();
   const float plane = normal.dot(outline.point);
@@ -43,12 +47,15 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
     if (t <= 0 && covered(view, c, r))
       relative = view.depthAt(c, r) - z0;
     else if (facing > kPlaneFacing)
-      relative = plane / normal.dot(camera.ray(static_cast<float>(view.left + c), static_cast<float>(view.top + r))) - z0;
+      relative = plane / normal.dot(camera.ray(static_cast<float>(view.left + c),
+                                               static_cast<float>(view.top + r))) -
+                 z0;
   }
 }
 }  // namespace
 
-std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera, int stride)
+std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
+                                    int stride)
 {
   std::vector<OutlinePoint> outline;
   int seen = 0;
@@ -71,8 +78,8 @@ std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamer
   return outline;
 }
 
-OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, const Eigen::Vector3f& point_camera,
-                          float gate_m, int reach_px)
+OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
+                          const Eigen::Vector3f& point_camera, float gate_m, int reach_px)
 {
   if (!(point_camera.z() > 0)) return {};
   const Eigen::Vector2f pixel = image.camera.project(point_camera);
@@ -85,8 +92,10 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, 
     if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
           at.y() < static_cast<float>(image.camera.height - 1)))
       return {};
-    const float z = image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
-    const float expected_m = point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
+    const float z =
+        image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
+    const float expected_m =
+        point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     const float behind_m = z - expected_m;
     if (z > 0 && std::abs(behind_m) <= gate_m && (on_surface || t <= 0))
     {
@@ -103,7 +112,8 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, 
     }
     if (z == 0) return {OutlineEnd::kMissing, last_px};
     if (behind_m > 0) return {OutlineEnd::kBehind, last_px};
-    return {z > last_z - gate_m ? OutlineEnd::kGoesOn : OutlineEnd::kHidden, last_px};  // rises, or something in front
+    return {z > last_z - gate_m ? OutlineEnd::kGoesOn : OutlineEnd::kHidden,
+            last_px};  // rises, or something in front
   }
   if (on_surface) return {OutlineEnd::kGoesOn, last_px};
   if (hidden) return {};

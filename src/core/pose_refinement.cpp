@@ -15,12 +15,13 @@ namespace
 {
 constexpr int kStepsPerView = 4;  // the visible surface is rendered anew after so many steps
 constexpr std::size_t kSurfacePoints = 500;  // of the visible surface, about
-constexpr int kOutlineStride = 2;               // every so many pixels of the outline
+constexpr int kOutlineStride = 2;            // every so many pixels of the outline
 constexpr int kLastOutlineReach_px = 5;
-constexpr float kOutlineWeight = 0.5F;          // of an outline pixel, relative to a surface point
-constexpr float kShadowWeight = 0.3F;          // ... beyond which nothing was measured
-constexpr float kOutlineGates = 0.7F;           // depth gate across the outline, in last gates of the surface
-constexpr float kFirstGateRel = 0.10F;       // of the diameter
+constexpr float kOutlineWeight = 0.5F;  // of an outline pixel, relative to a surface point
+constexpr float kShadowWeight = 0.3F;   // ... beyond which nothing was measured
+constexpr float kOutlineGates =
+    0.7F;  // depth gate across the outline, in last gates of the surface
+constexpr float kFirstGateRel = 0.10F;  // of the diameter
 constexpr float kMinNormalCosine = 0.7F;
 constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out
 constexpr float kLeverRel = 0.35F;       // length that makes rotations comparable to translations
@@ -41,13 +42,13 @@ struct SurfacePoint
 /// What the camera sees of a free part at a pose.
 struct VisiblePart
 {
-  std::vector<SurfacePoint> surface;             ///< About kSurfacePoints, evenly over the image.
-  std::vector<OutlinePoint> outline;             ///< Points as seen from the pose of rendering.
-  std::vector<Eigen::Vector3f> outline_points;   ///< The outline's points, mesh frame [m].
+  std::vector<SurfacePoint> surface;            ///< About kSurfacePoints, evenly over the image.
+  std::vector<OutlinePoint> outline;            ///< Points as seen from the pose of rendering.
+  std::vector<Eigen::Vector3f> outline_points;  ///< The outline's points, mesh frame [m].
 };
 
-void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model, const PinholeCamera& camera,
-             VisiblePart& part)
+void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
+             const PinholeCamera& camera, VisiblePart& part)
 {
   thread_local RenderedPart view;
   renderPart(model.renderable(), T_camera_model, camera, view);
@@ -73,15 +74,18 @@ void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model, con
     }
   part.outline = outlineOf(view, camera, kOutlineStride);
   part.outline_points.clear();
-  for (const OutlinePoint& point : part.outline) part.outline_points.push_back(T_model_camera * point.point);
+  for (const OutlinePoint& point : part.outline)
+    part.outline_points.push_back(T_model_camera * point.point);
 }
 
 /// Change of a point's coordinate along a direction with a turn (scaled by the lever) and a shift.
 Vector6f jacobianOf(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction)
 {
   Vector6f jacobian;
-  jacobian << arm.y() * direction.z() - arm.z() * direction.y(), arm.z() * direction.x() - arm.x() * direction.z(),
-      arm.x() * direction.y() - arm.y() * direction.x(), direction.x(), direction.y(), direction.z();
+  jacobian << arm.y() * direction.z() - arm.z() * direction.y(),
+      arm.z() * direction.x() - arm.x() * direction.z(),
+      arm.x() * direction.y() - arm.y() * direction.x(), direction.x(), direction.y(),
+      direction.z();
   return jacobian;
 }
 
@@ -139,8 +143,9 @@ NormalEquations equationsOf(const RangeImage& image, const std::vector<SurfacePo
 }
 
 /// Adds what the outline says: across it the part should end where the measured surface ends.
-void addOutline(const RangeImage& image, const VisiblePart& part, const Eigen::Isometry3f& T_camera_model,
-                const Eigen::Vector3f& center, float lever_m, float gate_m, int reach_px, NormalEquations& equations)
+void addOutline(const RangeImage& image, const VisiblePart& part,
+                const Eigen::Isometry3f& T_camera_model, const Eigen::Vector3f& center,
+                float lever_m, float gate_m, int reach_px, NormalEquations& equations)
 {
   for (std::size_t i = 0; i < part.outline.size(); ++i)
   {
@@ -150,7 +155,8 @@ void addOutline(const RangeImage& image, const VisiblePart& part, const Eigen::I
     const float share = static_cast<float>(match.offset_px) / static_cast<float>(reach_px + 1);
     const float tukey = (1 - share * share) * (1 - share * share);
     const float weight = match.end == OutlineEnd::kBehind ? kOutlineWeight : kShadowWeight;
-    const Eigen::Vector3f direction(part.outline[i].direction.x(), part.outline[i].direction.y(), 0);
+    const Eigen::Vector3f direction(part.outline[i].direction.x(), part.outline[i].direction.y(),
+                                    0);
     equations.add(jacobianOf((p - center) / lever_m, direction),
                   static_cast<float>(match.offset_px) * p.z() / image.camera.fx, weight * tukey);
   }
@@ -193,8 +199,10 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
                          std::pow(last_gate_m / (kFirstGateRel * diameter), 1.5F * progress));
     const Eigen::Vector3f center = pose * model.data().center;
     NormalEquations equations = equationsOf(image, part.surface, pose, center, lever_m, gate_m);
-    const int reach_px = kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
-    addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px, equations);
+    const int reach_px =
+        kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
+    addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
+               equations);
     if (!(equations.weight > 6)) break;
     const Vector6f step = equations.solve();
     pose = moved(pose, step, center, lever_m);

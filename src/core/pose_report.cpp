@@ -37,8 +37,10 @@ UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
   const bool spread = sideSum(share.box) > config.max_spread_rel * model.diameter();
   if (config.mismatch_test && config.clustering == Clustering::kDbscan && spread)
     return UnreliableReason::kSpread;
-  if (config.mismatch_test && pose.slide_share > config.max_slide_share) return UnreliableReason::kSlippage;
-  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share)
+  if (config.mismatch_test && pose.slide_share > config.max_slide_share)
+    return UnreliableReason::kSlippage;
+  if (pose.score < config.min_score || pose.support < config.min_support ||
+      pose.visible_fraction < config.min_visible_share)
     return UnreliableReason::kLowScore;
   return UnreliableReason::kNone;
 }
@@ -52,10 +54,12 @@ std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const 
            percent(config.max_spread_rel) + ")";
   if (pose.reason == UnreliableReason::kSlippage)
     return "the measured surface goes on beyond " + percent(pose.slide_share) +
-           " of the outline that should stop a slide (max_slide_share " + percent(config.max_slide_share) + ")";
-  return "the cloud confirms " + percent(pose.score) + " (min_score " + percent(config.min_score) +
-         ") of the " + percent(pose.visible_fraction) + " (min_visible_share " +
-         percent(config.min_visible_share) + ") of the part that nothing hides";
+           " of the outline that should stop a slide (max_slide_share " +
+           percent(config.max_slide_share) + ")";
+  return "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
+         "), support " + percent(pose.support) + " (min_support " + percent(config.min_support) +
+         "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
+         percent(config.min_visible_share) + ")";
 }
 
 MismatchRegion regionOf(const DetectedPose& pose, const ClusterShare& share, const PpfModel& model,
@@ -84,6 +88,7 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, doubl
   pose.votes = candidate.votes;
   pose.visible_fraction = visibleFraction(candidate.evidence);
   pose.rms_error_m = candidate.evidence.rms_error_m;
+  pose.support = candidate.evidence.support();
   pose.slide_share = candidate.evidence.slide_share;
   pose.evidence_balance = balance / std::max(1.0, candidate.evidence.confirmed_weight);
   pose.cluster = candidate.cluster;
@@ -103,8 +108,7 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    [&](const Candidate& candidate)
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
-    DetectedPose pose =
-        poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
+    DetectedPose pose = poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
         regionOf(pose, {cluster.box, cluster.hypotheses}, *models[pose.model], config));

@@ -18,7 +18,7 @@ namespace
 constexpr std::size_t kCameraSamples = 20000;  // points that the camera is fitted to
 constexpr float kMaxCameraError_px = 0.5F;
 constexpr std::size_t kSpacingSamples = 2000;  // points whose neighbours give the spacing
-constexpr float kPixelPerSpacing = 1.3F;       // so that few pixels stay empty
+constexpr float kPixelPerSpacing = 1.0F;       // so that few pixels stay empty
 constexpr int kMaxImageSide_px = 4000;
 constexpr float kMarginRel = 0.6F;  // image around the region, relative to the largest part
 constexpr int kPointNeighbors = 12;

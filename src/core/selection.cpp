@@ -37,8 +37,7 @@ std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidate
   std::vector<std::uint8_t> owned(pixels, 0);
   std::priority_queue<Entry> queue;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    queue.push({evidenceBalance(candidates[i], candidates[i].confirmed_weight),
-                i, 0});
+    queue.push({evidenceBalance(candidates[i], candidates[i].confirmed_weight), i, 0});
   std::vector<SelectedPose> selected;
   while (!queue.empty())
   {

@@ -11,13 +11,14 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr float kUnseenFacing = 0.25F;    // cosine to the line of sight below which a surface need not be seen
-constexpr float kSeenFacing = 0.6F;      // ... from which on it counts in full
-constexpr float kRingRel = 0.04F;        // width of the ring along the outline where contradictions fade
-constexpr float kEdgeReachRel = 0.04F;   // how far across the outline the surface is followed
-constexpr int kSlideDirections = 8;      // over half a turn
-constexpr double kMissingWeight = 0.4;   // of a contradiction
-constexpr double kEdgeWeight = 4.0;      // of a missing edge, in pixels of surface
+constexpr float kUnseenFacing =
+    0.25F;  // cosine to the line of sight below which a surface need not be seen
+constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
+constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
+constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
+constexpr int kSlideDirections = 8;     // over half a turn
+constexpr double kMissingWeight = 0.4;  // of a contradiction
+constexpr double kEdgeWeight = 4.0;     // of a missing edge, in pixels of surface
 
 /// One pixel of the rendered part.
 struct ModelPixel
@@ -37,10 +38,12 @@ public:
         gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
-    const float depth_m = view.width > 0 ? *std::max_element(view.depth.begin(), view.depth.end()) : 1.0F;
+    const float depth_m =
+        view.width > 0 ? *std::max_element(view.depth.begin(), view.depth.end()) : 1.0F;
     const float diameter_px = diameter_m * image.camera.fx / depth_m;
     ring_px_ = std::max(1, static_cast<int>(std::lround(kRingRel * diameter_px)));
-    edge_reach_px_ = std::clamp(static_cast<int>(std::lround(kEdgeReachRel * diameter_px)), 2, kOutlineReach_px);
+    edge_reach_px_ =
+        std::clamp(static_cast<int>(std::lround(kEdgeReachRel * diameter_px)), 3, kOutlineReach_px);
   }
 
   PoseEvidence run()
@@ -72,18 +75,23 @@ private:
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
     const ModelPixel pixel = modelPixel(column, row);
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
-    const float weight = std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
-    const float doubt = weight * std::min(1.0F, static_cast<float>(outlineDistance(column, row)) / static_cast<float>(ring_px_));
+    const float weight =
+        std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
+    const float doubt = weight * std::min(1.0F, static_cast<float>(outlineDistance(column, row)) /
+                                                    static_cast<float>(ring_px_));
     const float z = image_.depth[index];
+    ++evidence_.visible_px;
     if (z == 0)
     {
       evidence_.missing += doubt;
       return;
     }
-    const float behind_m = (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
+    const float behind_m =
+        (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
     if (behind_m < -gate_m_)
     {
       evidence_.occluded += weight;
+      --evidence_.visible_px;
       return;
     }
     if (behind_m > gate_m_)
@@ -107,8 +115,8 @@ private:
     squared_error_ += behind_m * behind_m;
   }
 
-  /// Pixels to the part's outline along rows and columns, at most the ring's width. There sensors mix what lies
-  /// before and behind, so contradictions weigh less.
+  /// Pixels to the part's outline along rows and columns, at most the ring's width. There sensors
+  /// mix what lies before and behind, so contradictions weigh less.
   int outlineDistance(int column, int row) const
   {
     for (int k = 1; k <= ring_px_; ++k)

@@ -73,8 +73,11 @@ struct DetectedPose
   double visible_fraction =
       0;  ///< Of the surface a free part would show, the share not hidden by others.
   double rms_error_m = 0;  ///< Of the confirmed points, along their normals [m].
-  double slide_share = 0;       ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
-  double evidence_balance = 0;  ///< Evidence for the pose less that against it, in pixels confirming it. At most 1.
+  double support = 0;  ///< Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
+  double slide_share =
+      0;  ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
+  double evidence_balance =
+      0;  ///< Evidence for the pose less that against it, in pixels confirming it. At most 1.
   bool reliable = false;
   UnreliableReason reason = UnreliableReason::kNone;  ///< kNone if and only if reliable.
   std::int32_t cluster = -1;  ///< The cluster it came from; -1 under greedy clustering.

@@ -17,9 +17,8 @@ enum class Clustering
 /// What decides the content of a trained model. A model and a detector must agree on all of it.
 struct ModelParameters
 {
-  double step_rel =
-      0.05;  ///< Distance step and sampling distance, relative to the diameter. In [0.01, 0.2].
-  int n_angle = 30;  ///< Angle steps in a full turn: angle step = 2 pi / n_angle. In [8, 120].
+  double step_rel = 0.07;  ///< Distance step and sampling distance. In [0.01, 0.2].
+  int n_angle = 30;        ///< Angle steps in a full turn: a step is 2 pi / n_angle. In [8, 120].
 
   bool operator==(const ModelParameters& other) const
   {
@@ -35,44 +34,40 @@ struct DetectorConfig
   ModelParameters model;
 
   // Scene
-  int max_points = 5000000;        ///< A larger cloud is refused. >= 1.
-  bool use_cloud_normals = false;  ///< Take the cloud's own normals instead of computing them.
-  double pixels_per_diameter =
-      100;                   ///< The image is averaged down to about this resolution. >= 20.
-  int normal_radius_px = 2;  ///< Half window of the plane fits in the image. In [1, 10].
+  int max_points = 5000000;          ///< A larger cloud is refused. >= 1.
+  bool use_cloud_normals = false;    ///< Take the cloud's own normals instead of computing them.
+  double pixels_per_diameter = 100;  ///< Resolution that the image is averaged down to. >= 20.
+  int normal_radius_px = 2;          ///< Half window of the plane fits in the image. In [1, 10].
 
   // Voting
-  double reference_share =
-      0.2;              ///< Share of the scene points that serve as reference points. In (0, 1].
-  double lambda = 0.0;  ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). In [0, 1].
-  double v_min = 0.1;   ///< Smallest weight of a vote. In (0, 1].
-  int peaks_per_reference = 3;  ///< Peaks kept of each reference point's accumulator. In [1, 10].
-  double peak_ratio = 0.9;      ///< Further peaks reach this share of the best. In (0, 1].
+  double reference_share = 0.15;  ///< Share of the scene points that are reference points. (0, 1].
+  double lambda = 0.0;            ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
+  double v_min = 0.1;             ///< Smallest weight of a vote. (0, 1].
+  int peaks_per_reference = 3;    ///< Peaks kept of each reference point's accumulator. [1, 10].
+  double peak_ratio = 0.9;        ///< Further peaks reach this share of the best. (0, 1].
 
   // Clustering
   Clustering clustering = Clustering::kDbscan;  ///< `dbscan` or `greedy`.
-  double min_votes_rel =
-      0.2;               ///< High-vote gate, relative to the most votes of a hypothesis. In [0, 1].
-  double eps_rel = 0.0;  ///< DBSCAN radius. 0: from the sampling step. >= 0.
-  int minpts = 0;        ///< DBSCAN core size, the point included. 0: from the reference share.
+  double min_votes_rel = 0.1;  ///< High-vote gate, relative to the best hypothesis. [0, 1].
+  double eps_rel = 0.0;        ///< DBSCAN radius. 0: from the sampling step. >= 0.
+  int minpts = 0;  ///< DBSCAN core size, the point included. 0: from the reference share.
   double group_distance_rel = 0.1;  ///< Poses nearer than this group. > 0.
-  double group_angle_rad = 0.35;    ///< Poses turned by less than this group. In (0, pi].
-  int poses_per_cluster =
-      0;  ///< Poses of each cluster that are verified. 0: all. 1: the paper's mode.
+  double group_angle_rad = 0.35;    ///< Poses turned by less than this group. (0, pi].
+  int poses_per_cluster = 0;  ///< Poses of a cluster that are verified; 0: all, 1: as in the paper.
 
   // Mismatching regions
-  bool mismatch_test = true;    ///< Mark poses of mismatching regions as unreliable.
-  double max_spread_rel = 1.0;  ///< Largest sum of a cluster's box sides. > 0.
+  bool mismatch_test = true;     ///< Mark poses that spread or slide as unreliable.
+  double max_spread_rel = 1.0;   ///< Largest sum of a cluster's box sides. > 0.
+  double max_slide_share = 0.7;  ///< Largest share of open outline against a slide. [0, 1].
 
-  // Verification, refinement and selection
-  int max_candidates = 300;      ///< Poses that are refined and verified at most. >= 1.
-  int icp_iterations = 12;       ///< Steps of point-to-plane ICP. In [0, 100].
-  double depth_gate_rel = 0.02;  ///< A surface confirms a pose within this distance. > 0.
-  double normal_gate_rad = 0.6;  ///< ... and within this turn of the normal. In (0, pi/2].
-  double min_score = 0.5;          ///< Poses scoring less are not reliable. In [0, 1].
-  double max_slide_share = 0.7;    ///< Poses whose outline could slide more freely are not reliable. In [0, 1].
-  double min_visible_share =
-      0.2;  ///< Poses showing less of their surface are not reliable. In [0, 1].
+  // Refinement, verification and selection
+  int max_candidates = 250;        ///< Poses that are refined and verified at most. >= 1.
+  int icp_iterations = 12;         ///< Steps of point-to-plane ICP. In [0, 100].
+  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
+  double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
+  double min_score = 0.5;          ///< Poses scoring less are not reliable. [0, 1].
+  double min_support = 0.5;        ///< Poses with less of their visible pixels confirmed neither.
+  double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
 
   // Running
   int threads = 0;          ///< 0: one per core. >= 0.
@@ -108,12 +103,13 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("poses_per_cluster", config.poses_per_cluster);
   visit("mismatch_test", config.mismatch_test);
   visit("max_spread_rel", config.max_spread_rel);
+  visit("max_slide_share", config.max_slide_share);
   visit("max_candidates", config.max_candidates);
   visit("icp_iterations", config.icp_iterations);
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);
   visit("min_score", config.min_score);
-  visit("max_slide_share", config.max_slide_share);
+  visit("min_support", config.min_support);
   visit("min_visible_share", config.min_visible_share);
   visit("threads", config.threads);
   visit("time_limit_s", config.time_limit_s);

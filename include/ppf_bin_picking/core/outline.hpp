@@ -1,13 +1,13 @@
 /// @file The outline of a rendered part and where the measured surface really ends.
 #pragma once
 
-#include <array>
-#include <vector>
+#include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/range_image.hpp"
 
 #include <Eigen/Geometry>
 
-#include "ppf_bin_picking/core/model_renderer.hpp"
-#include "ppf_bin_picking/core/range_image.hpp"
+#include <array>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -19,14 +19,15 @@ struct OutlinePoint
 {
   Eigen::Vector3f point;      ///< On the part, camera frame [m].
   Eigen::Vector2f direction;  ///< Out of the part, in the image, unit length.
-  /// Depth that the part's surface has, or would have if it went on, at the pixels across the outline, relative
-  /// to the depth of the point [m]; the middle entry is the point's own.
+  /// Depth that the part's surface has, or would have if it went on, at the pixels across the
+  /// outline, relative to the depth of the point [m]; the middle entry is the point's own.
   std::array<float, 2 * kOutlineReach_px + 1> profile_m;
 };
 
 /// Points of the outline of a rendered part: pixels with part on one side and none on the other.
 /// @param stride  Every so many of them.
-std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera, int stride);
+std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
+                                    int stride);
 
 /// What was measured across an outline point.
 enum class OutlineEnd
@@ -42,13 +43,14 @@ enum class OutlineEnd
 struct OutlineMatch
 {
   OutlineEnd end = OutlineEnd::kHidden;
-  int offset_px = 0;  ///< Last pixel on the surface: above zero beyond the part's outline, below within it.
+  int offset_px =
+      0;  ///< Last pixel on the surface: above zero beyond the part's outline, below within it.
 };
 
 /// Follows the measured surface across an outline point from the inside out.
 /// @param point_camera  The outline point where the part is now, camera frame [m].
 /// @param gate_m        Depth by which the surface may differ from the part's.
 /// @param reach_px      At most kOutlineReach_px.
-OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline, const Eigen::Vector3f& point_camera,
-                          float gate_m, int reach_px);
+OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
+                          const Eigen::Vector3f& point_camera, float gate_m, int reach_px);
 }  // namespace ppf_bin_picking

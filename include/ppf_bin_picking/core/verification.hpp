@@ -12,8 +12,9 @@
 
 namespace ppf_bin_picking
 {
-/// The pixels that a free part at the pose would cover, sorted by what was measured there. Sums of weights: a
-/// pixel counts less the flatter the surface lies to the line of sight, as sensors see little of such surfaces.
+/// The pixels that a free part at the pose would cover, sorted by what was measured there. Sums of
+/// weights: a pixel counts less the flatter the surface lies to the line of sight, as sensors see
+/// little of such surfaces.
 struct PoseEvidence
 {
   /// A confirmed pixel.
@@ -23,19 +24,31 @@ struct PoseEvidence
     float weight;         ///< In [0, 1].
   };
   std::vector<Pixel> confirmed;  ///< Surface and normal agree, inside the region.
+  int visible_px = 0;            ///< All pixels that nothing in front hides, unweighted.
   double confirmed_weight = 0;   ///< Sum over confirmed.
   double looked_through = 0;     ///< The cloud lies behind the supposed surface.
   double wrong_normal = 0;       ///< A surface in the right place with another normal.
   double missing = 0;            ///< Nothing was measured.
   double occluded = 0;           ///< The cloud lies in front.
   double outside = 0;            ///< Explained by a surface outside the region of interest.
-  double outline_held = 0;         ///< Outline pixels where the measured surface ends, too.
-  double outline_broken = 0;       ///< Outline pixels beyond which the surface goes on, or where it is absent.
-  double slide_share = 0;          ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
-  float rms_error_m = 0;         ///< Of the confirmed pixels, along their normals.
+  double outline_held = 0;       ///< Outline pixels where the measured surface ends, too.
+  double outline_broken =
+      0;  ///< Outline pixels beyond which the surface goes on, or where it is absent.
+  double slide_share =
+      0;  ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
+  float rms_error_m = 0;  ///< Of the confirmed pixels, along their normals.
+
+  /// Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
+  double support() const
+  {
+    return visible_px > 0 ? static_cast<double>(confirmed.size()) / visible_px : 0.0;
+  }
 
   /// Weight of the pixels that nothing in front hides.
-  double expected() const { return confirmed_weight + looked_through + wrong_normal + missing + outside; }
+  double expected() const
+  {
+    return confirmed_weight + looked_through + wrong_normal + missing + outside;
+  }
 };
 
 /// Renders the part at the pose and compares pixel by pixel.
