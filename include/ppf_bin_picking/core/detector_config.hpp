@@ -40,11 +40,11 @@ struct DetectorConfig
   int normal_radius_px = 2;          ///< Half window of the plane fits in the image. In [1, 10].
 
   // Voting
-  double reference_share = 0.15;  ///< Share of the scene points that are reference points. (0, 1].
-  double lambda = 0.0;            ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
-  double v_min = 0.1;             ///< Smallest weight of a vote. (0, 1].
-  int peaks_per_reference = 3;    ///< Peaks kept of each reference point's accumulator. [1, 10].
-  double peak_ratio = 0.9;        ///< Further peaks reach this share of the best. (0, 1].
+  double reference_share = 0.2;  ///< Share of the scene points that are reference points. (0, 1].
+  double lambda = 0.0;           ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
+  double v_min = 0.1;            ///< Smallest weight of a vote. (0, 1].
+  int peaks_per_reference = 3;   ///< Peaks kept of each reference point's accumulator. [1, 10].
+  double peak_ratio = 0.9;       ///< Further peaks reach this share of the best. (0, 1].
 
   // Clustering
   Clustering clustering = Clustering::kDbscan;  ///< `dbscan` or `greedy`.
@@ -57,11 +57,11 @@ struct DetectorConfig
 
   // Mismatching regions
   bool mismatch_test = true;     ///< Mark poses that spread or slide as unreliable.
-  double max_spread_rel = 1.0;   ///< Largest sum of a cluster's box sides. > 0.
+  double max_spread_rel = 1.5;   ///< Largest sum of a cluster's box sides. > 0.
   double max_slide_share = 0.7;  ///< Largest share of open outline against a slide. [0, 1].
 
   // Refinement, verification and selection
-  int max_candidates = 250;        ///< Poses that are refined and verified at most. >= 1.
+  int max_candidates = 300;        ///< Poses that are refined and verified at most. >= 1.
   int icp_iterations = 12;         ///< Steps of point-to-plane ICP. In [0, 100].
   double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
