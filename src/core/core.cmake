@@ -17,9 +17,11 @@ add_library(
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
   ${core_dir}/normals.cpp
+  ${core_dir}/organised_image.cpp
   ${core_dir}/outline.cpp
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
+  ${core_dir}/points_image.cpp
   ${core_dir}/pose_clustering.cpp
   ${core_dir}/pose_refinement.cpp
   ${core_dir}/pose_report.cpp

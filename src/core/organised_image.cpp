@@ -1,0 +1,123 @@
+#include "ppf_bin_picking/core/normals.hpp"
+
+#include "range_image_makers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+/// The columns and rows of an image that matter.
+struct Window
+{
+  int left = std::numeric_limits<int>::max();
+  int top = std::numeric_limits<int>::max();
+  int right = -1;
+  int bottom = -1;
+  float nearest_z = std::numeric_limits<float>::max();
+
+  void add(int u, int v, float z)
+  {
+    left = std::min(left, u), right = std::max(right, u);
+    top = std::min(top, v), bottom = std::max(bottom, v);
+    nearest_z = std::min(nearest_z, z);
+  }
+  bool empty() const { return right < left; }
+  void grow(int margin, int width, int height)
+  {
+    left = std::max(0, left - margin), right = std::min(width - 1, right + margin);
+    top = std::max(0, top - margin), bottom = std::min(height - 1, bottom + margin);
+  }
+};
+
+/// Averages blocks of factor x factor pixels: of each block the surface of its median depth.
+RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
+                        const PinholeCamera& camera, const Window& window, int factor,
+                        float same_surface_m)
+{
+  RangeImage image;
+  image.camera.width = (window.right - window.left + 1) / factor;
+  image.camera.height = (window.bottom - window.top + 1) / factor;
+  const auto f = static_cast<float>(factor);
+  const float half = (f - 1) / 2;
+  image.camera.fx = camera.fx / f;
+  image.camera.fy = camera.fy / f;
+  image.camera.cx = (camera.cx - static_cast<float>(window.left) - half) / f;
+  image.camera.cy = (camera.cy - static_cast<float>(window.top) - half) / f;
+  const std::size_t pixels = static_cast<std::size_t>(image.camera.width) * image.camera.height;
+  image.depth.assign(pixels, 0);
+  image.in_roi.assign(pixels, 0);
+  std::vector<std::pair<float, std::uint8_t>> block;
+  for (int v = 0; v < image.camera.height; ++v)
+    for (int u = 0; u < image.camera.width; ++u)
+    {
+      block.clear();
+      for (int dv = 0; dv < factor; ++dv)
+        for (int du = 0; du < factor; ++du)
+        {
+          const std::size_t i =
+              static_cast<std::size_t>(window.top + v * factor + dv) * cloud.width +
+              static_cast<std::size_t>(window.left + u * factor + du);
+          if (measured(cloud.points[i])) block.emplace_back(cloud.points[i].z(), inside[i]);
+        }
+      if (block.empty()) continue;
+      const auto middle = block.begin() + static_cast<std::ptrdiff_t>((block.size() - 1) / 2);
+      std::nth_element(block.begin(), middle, block.end());
+      const auto [median, median_inside] = *middle;
+      float sum = 0, count = 0;
+      for (const auto& [z, z_inside] : block)
+        if (std::abs(z - median) < same_surface_m) sum += z, count += 1;
+      image.depth[image.index(u, v)] = sum / count;
+      image.in_roi[image.index(u, v)] = median_inside;
+    }
+  return image;
+}
+}  // namespace
+
+void takeCloudNormals(const PointCloud& cloud, RangeImage& image)
+{
+  image.normals.assign(image.depth.size(), Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (!measured(cloud.points[i]) || !cloud.normals[i].allFinite()) continue;
+    int u, v;
+    if (!image.camera.pixelOf(cloud.points[i], u, v) || cloud.normals[i].norm() < 0.5F) continue;
+    const Eigen::Vector3f normal = cloud.normals[i].normalized();
+    image.normals[image.index(u, v)] =
+        normal.dot(cloud.points[i]) > 0 ? Eigen::Vector3f(-normal) : normal;
+  }
+}
+
+RangeImageResult imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera,
+                                  const std::vector<std::uint8_t>& inside,
+                                  const RangeImageOptions& options)
+{
+  RangeImageResult result;
+  Window window;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (inside[i])
+    {
+      window.add(static_cast<int>(i % cloud.width), static_cast<int>(i / cloud.width),
+                 cloud.points[i].z());
+      ++result.roi_points;
+    }
+  if (window.empty()) return result;
+  const double per_meter = camera.fx / window.nearest_z;
+  window.grow(static_cast<int>(std::ceil(kMarginRel * options.largest_diameter_m * per_meter)),
+              camera.width, camera.height);
+  const int factor = std::max(
+      1, static_cast<int>(options.diameter_m * per_meter / options.pixels_per_diameter + 0.25));
+  result.image = averagedDown(cloud, inside, camera, window, factor,
+                              kSameSurfaceRel * static_cast<float>(options.diameter_m));
+  if (options.use_cloud_normals && !cloud.normals.empty())
+    takeCloudNormals(cloud, result.image);
+  else
+    estimateImageNormals(result.image, options.normal_radius_px,
+                         kNormalGateRel * static_cast<float>(options.diameter_m), options.threads);
+  return result;
+}
+}  // namespace ppf_bin_picking

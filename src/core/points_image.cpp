@@ -1,0 +1,155 @@
+#include "ppf_bin_picking/core/neighbor_search.hpp"
+#include "ppf_bin_picking/core/normals.hpp"
+
+#include "range_image_makers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr std::size_t kSpacingSamples = 2000;  // points whose neighbours give the spacing
+constexpr float kPixelPerSpacing = 1.0F;       // the image is about as fine as the points lie
+constexpr int kMaxImageSide_px = 4000;
+constexpr int kPointNeighbors = 12;
+
+/// Angle between neighbouring points as seen from the camera: the median over some of them [rad].
+float pointSpacing(const std::vector<Eigen::Vector3f>& points)
+{
+  const NeighborSearch search(points);
+  std::vector<float> spacings;
+  std::vector<std::pair<std::uint32_t, float>> near;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSpacingSamples);
+  for (std::size_t i = 0; i < points.size(); i += stride)
+  {
+    search.nearest(points[i], 2, near);
+    if (near.size() == 2) spacings.push_back(std::sqrt(near[1].second) / points[i].z());
+  }
+  if (spacings.empty()) return 0;
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
+
+/// A camera at the origin that sees all points, and a margin around them, in pixels of a given
+/// angle.
+PinholeCamera cameraAround(const std::vector<Eigen::Vector3f>& points, float pixel_rad,
+                           float margin_rad)
+{
+  Eigen::Array2f low = Eigen::Array2f::Constant(std::numeric_limits<float>::max());
+  Eigen::Array2f high = -low;
+  for (const Eigen::Vector3f& p : points)
+  {
+    const Eigen::Array2f slope = (p.head<2>() / p.z()).array();
+    low = low.min(slope);
+    high = high.max(slope);
+  }
+  low -= margin_rad;
+  high += margin_rad;
+  pixel_rad = std::max(pixel_rad, (high - low).maxCoeff() / static_cast<float>(kMaxImageSide_px));
+  PinholeCamera camera;
+  camera.fx = camera.fy = 1 / pixel_rad;
+  camera.cx = 1 - low.x() * camera.fx;
+  camera.cy = 1 - low.y() * camera.fy;
+  camera.width = static_cast<int>((high.x() - low.x()) * camera.fx) + 3;
+  camera.height = static_cast<int>((high.y() - low.y()) * camera.fy) + 3;
+  return camera;
+}
+
+/// Fills empty pixels whose neighbours nearly all are measured and lie on one surface.
+void fillHoles(RangeImage& image, float same_surface_m)
+{
+  const RangeImage before = image;
+  for (int v = 1; v + 1 < image.camera.height; ++v)
+    for (int u = 1; u + 1 < image.camera.width; ++u)
+    {
+      if (before.depth[before.index(u, v)] > 0) continue;
+      float low = std::numeric_limits<float>::max(), high = 0, sum = 0;
+      int count = 0, inside = 0;
+      for (int dv = -1; dv <= 1; ++dv)
+        for (int du = -1; du <= 1; ++du)
+        {
+          const std::size_t neighbor = before.index(u + du, v + dv);
+          const float z = before.depth[neighbor];
+          if (z == 0) continue;
+          low = std::min(low, z), high = std::max(high, z), sum += z;
+          inside += before.in_roi[neighbor];
+          ++count;
+        }
+      if (count < 4 || high - low > 2 * same_surface_m) continue;
+      image.depth[image.index(u, v)] = sum / static_cast<float>(count);
+      image.in_roi[image.index(u, v)] = 2 * inside > count;
+    }
+}
+
+/// Puts the nearest point of each pixel into the image.
+void drawPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside, RangeImage& image)
+{
+  const std::size_t pixels = static_cast<std::size_t>(image.camera.width) * image.camera.height;
+  image.depth.assign(pixels, 0);
+  image.in_roi.assign(pixels, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const Eigen::Vector3f& p = cloud.points[i];
+    int u, v;
+    if (!measured(p) || !image.camera.pixelOf(p, u, v)) continue;
+    const std::size_t index = image.index(u, v);
+    if (image.depth[index] > 0 && image.depth[index] <= p.z()) continue;
+    image.depth[index] = p.z();
+    image.in_roi[index] = inside[i];
+  }
+}
+
+/// Normals of the image's points from their neighbours in space.
+void estimateNormals(RangeImage& image, float reach_m, int threads)
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::size_t> where;
+  for (int v = 0; v < image.camera.height; ++v)
+    for (int u = 0; u < image.camera.width; ++u)
+    {
+      if (image.depth[image.index(u, v)] == 0) continue;
+      points.push_back(image.point(u, v));
+      where.push_back(image.index(u, v));
+    }
+  const std::vector<Eigen::Vector3f> normals =
+      estimatePointNormals(points, kPointNeighbors, reach_m, threads);
+  image.normals.assign(image.depth.size(), Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < where.size(); ++i)
+    image.normals[where[i]] = normals[i];
+}
+}  // namespace
+
+RangeImageResult imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
+                               const RangeImageOptions& options)
+{
+  RangeImageResult result;
+  std::vector<Eigen::Vector3f> points;
+  float nearest_z = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    if (!inside[i]) continue;
+    points.push_back(cloud.points[i]);
+    nearest_z = std::min(nearest_z, cloud.points[i].z());
+  }
+  result.roi_points = points.size();
+  if (points.empty()) return result;
+  const auto diameter = static_cast<float>(options.diameter_m);
+  const float wanted_rad = diameter / nearest_z / static_cast<float>(options.pixels_per_diameter);
+  const float margin_rad = kMarginRel * static_cast<float>(options.largest_diameter_m) / nearest_z;
+  RangeImage& image = result.image;
+  image.camera = cameraAround(points, std::max(wanted_rad, kPixelPerSpacing * pointSpacing(points)),
+                              margin_rad);
+  drawPoints(cloud, inside, image);
+  fillHoles(image, kSameSurfaceRel * diameter);
+  const float pixel_m = nearest_z / image.camera.fx;
+  if (options.use_cloud_normals && !cloud.normals.empty())
+    takeCloudNormals(cloud, image);
+  else
+    estimateNormals(image, std::max(4 * pixel_m, kNormalGateRel * diameter), options.threads);
+  return result;
+}
+}  // namespace ppf_bin_picking
