@@ -1,2 +1,2 @@
 # Unit tests of the core, one file each; built by the catkin package and by the core alone.
-set(core_tests test_detector_config test_symmetry)
+set(core_tests test_detector test_detector_config test_paper_experiments test_symmetry)

@@ -2,7 +2,7 @@
 #include "ppf_bin_picking/sim/random.hpp"
 #include "ppf_bin_picking/sim/ray_caster.hpp"
 
-#include "sim/shapes.hpp"
+#include "support/shapes.hpp"
 
 #include <gtest/gtest.h>
 

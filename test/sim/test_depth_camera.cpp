@@ -1,7 +1,7 @@
 #include "ppf_bin_picking/sim/depth_camera.hpp"
 #include "ppf_bin_picking/sim/simulated_cell.hpp"
 
-#include "sim/shapes.hpp"
+#include "support/shapes.hpp"
 
 #include <gtest/gtest.h>
 

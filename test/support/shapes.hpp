@@ -1,10 +1,12 @@
-/// @file Meshes for the tests of the simulated cell.
+/// @file Meshes of simple shapes.
 #pragma once
 
 #include "ppf_bin_picking/core/triangle_mesh.hpp"
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -87,5 +89,44 @@ inline TriangleMesh angleMesh()
     mesh.triangles.push_back({f[0] + 6, f[1] + 6, f[2] + 6});
   }
   return mesh;
+}
+
+/// All triangles of the meshes in one mesh.
+inline TriangleMesh joined(const std::vector<TriangleMesh>& meshes)
+{
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes)
+  {
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const auto& [a, b, c] : mesh.triangles)
+      all.triangles.push_back({a + first, b + first, c + first});
+  }
+  return all;
+}
+
+/// The mesh at another place.
+inline TriangleMesh shifted(TriangleMesh mesh, const Eigen::Vector3f& by_m)
+{
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+    vertex += by_m;
+  return mesh;
+}
+
+/// The mesh with every triangle wound the other way.
+inline TriangleMesh insideOut(TriangleMesh mesh)
+{
+  for (auto& triangle : mesh.triangles)
+    std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+/// A bracket that no turn maps onto itself: a plate of 70 x 40 x 8 mm in the xy plane, a wall at
+/// one end and a block beside the middle, both on its upper side (+z).
+inline TriangleMesh bracketMesh()
+{
+  return joined({shifted(boxMesh({0.07F, 0.04F, 0.008F}), {0, 0, 0.004F}),
+                 shifted(boxMesh({0.008F, 0.04F, 0.03F}), {-0.031F, 0, 0.023F}),
+                 shifted(boxMesh({0.02F, 0.012F, 0.014F}), {0.012F, 0.012F, 0.015F})});
 }
 }  // namespace ppf_bin_picking

@@ -1,0 +1,264 @@
+#include "ppf_bin_picking/core/detector.hpp"
+
+#include "support/shapes.hpp"
+#include "support/synthetic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr float kNoise_m = 0.0002F;
+
+DetectorConfig coarseConfig()
+{
+  DetectorConfig config;
+  config.model.step_rel = 0.1;
+  return config;
+}
+
+/// A bracket and, beside it, an angle on a table; the region begins a little above the table.
+class DetectorTest : public ::testing::Test
+{
+protected:
+  PointCloud cloud(double turn_rad = 0) const
+  {
+    const Eigen::Isometry3d T_turned = poseOf(turn_rad, {0, 0, 1}, {0, 0, 0});
+    return renderCloud({{squareMesh(0.5F), T_turned * T_camera_table_},
+                        {bracketMesh(), T_turned * T_camera_bracket_},
+                        {angleMesh(), T_turned * T_camera_angle_}},
+                       smallCamera(), kNoise_m);
+  }
+  DetectionResult detect(const DetectorConfig& config) const
+  {
+    return Detector(config).detect(cloud(), bracket_, roi_);
+  }
+  /// True if the pose is the bracket's within 0.02 diameters and 2 degrees.
+  bool isBracket(const DetectedPose& pose) const
+  {
+    return (pose.T_cloud_model.translation() - T_camera_bracket_.translation()).norm() <
+               0.02 * bracket_.diameter() &&
+           angleBetween(pose.T_cloud_model, T_camera_bracket_) < 2 * M_PI / 180;
+  }
+
+  Eigen::Isometry3d T_camera_table_ =
+      poseOf(M_PI, {1, 0, 0}, {0, 0, 0.62}) * poseOf(0.3, {1, 0, 0}, {0, 0, 0});
+  Eigen::Isometry3d T_camera_bracket_ = T_camera_table_ * poseOf(0.7, {0, 0, 1}, {-0.05, 0.01, 0});
+  Eigen::Isometry3d T_camera_angle_ = T_camera_table_ * poseOf(2.5, {0, 0, 1}, {0.07, 0, 0});
+  RegionOfInterest roi_{T_camera_table_, {-0.14, -0.1, 0.004}, {0.14, 0.1, 0.1}};
+  PpfModel bracket_ = PpfModel::train(bracketMesh(), SymmetryGroup(), coarseConfig().model);
+  PpfModel angle_ = PpfModel::train(angleMesh(), SymmetryGroup(), coarseConfig().model);
+};
+
+void expectSamePoses(const DetectionResult& a, const DetectionResult& b)
+{
+  ASSERT_EQ(a.poses.size(), b.poses.size());
+  for (std::size_t i = 0; i < a.poses.size(); ++i)
+  {
+    EXPECT_TRUE(a.poses[i].T_cloud_model.matrix() == b.poses[i].T_cloud_model.matrix());
+    EXPECT_EQ(a.poses[i].score, b.poses[i].score);
+    EXPECT_EQ(a.poses[i].votes, b.poses[i].votes);
+    EXPECT_EQ(a.poses[i].slide_share, b.poses[i].slide_share);
+    EXPECT_EQ(a.poses[i].reason, b.poses[i].reason);
+  }
+  ASSERT_EQ(a.distribution.size(), b.distribution.size());
+  for (std::size_t i = 0; i < a.distribution.size(); ++i)
+  {
+    EXPECT_TRUE(a.distribution[i].center == b.distribution[i].center);
+    EXPECT_TRUE(a.distribution[i].rotation.coeffs() == b.distribution[i].rotation.coeffs());
+    EXPECT_EQ(a.distribution[i].cluster, b.distribution[i].cluster);
+  }
+  EXPECT_EQ(a.regions.size(), b.regions.size());
+}
+
+TEST_F(DetectorTest, givesTheSameBytesForAnyNumberOfThreads)
+{
+  DetectorConfig config = coarseConfig();
+  config.threads = 1;
+  const PointCloud seen = cloud();
+  const std::vector<const PpfModel*> models{&bracket_, &angle_};
+  const DetectionResult one = Detector(config).detect(seen, models);
+  ASSERT_GT(one.poses.size(), 2U);
+  for (const int threads : {2, 4})
+  {
+    SCOPED_TRACE(threads);
+    config.threads = threads;
+    expectSamePoses(one, Detector(config).detect(seen, models));
+  }
+}
+
+TEST_F(DetectorTest, followsATurnOfTheSceneAboutTheLineOfSight)
+{
+  for (const double turn_rad : {0.4, M_PI / 2, 3.0})
+  {
+    SCOPED_TRACE(turn_rad);
+    const Eigen::Isometry3d T_turned = poseOf(turn_rad, {0, 0, 1}, {0, 0, 0});
+    RegionOfInterest roi = roi_;
+    roi.T_cloud_box = T_turned * roi_.T_cloud_box;
+    const DetectionResult result = Detector(coarseConfig()).detect(cloud(turn_rad), bracket_, roi);
+    ASSERT_EQ(result.status, DetectionStatus::kOk);
+    DetectedPose turned_back = result.poses.front();
+    turned_back.T_cloud_model = T_turned.inverse() * turned_back.T_cloud_model;
+    EXPECT_TRUE(isBracket(turned_back));
+  }
+}
+
+TEST_F(DetectorTest, findsThePoseInPointsWithoutOrder)
+{
+  const DetectionResult result =
+      Detector(coarseConfig()).detect(shuffledCloud(cloud()), bracket_, roi_);
+  ASSERT_EQ(result.status, DetectionStatus::kOk);
+  EXPECT_TRUE(isBracket(result.poses.front()));
+}
+
+TEST_F(DetectorTest, findsEachOfTwoPartsOnce)
+{
+  const DetectionResult result =
+      Detector(coarseConfig()).detect(cloud(), {&bracket_, &angle_}, roi_);
+  ASSERT_EQ(result.status, DetectionStatus::kOk);
+  std::vector<int> found(2, 0);
+  for (const DetectedPose& pose : result.poses)
+    if (pose.reliable) ++found.at(pose.model);
+  EXPECT_EQ(found, std::vector<int>({1, 1}));
+  for (const DetectedPose& pose : result.poses)
+  {
+    if (!pose.reliable) continue;
+    const Eigen::Isometry3d& truth = pose.model == 0 ? T_camera_bracket_ : T_camera_angle_;
+    const double diameter_m = pose.model == 0 ? bracket_.diameter() : angle_.diameter();
+    EXPECT_LT((pose.T_cloud_model.translation() - truth.translation()).norm(), 0.02 * diameter_m);
+    EXPECT_LT(angleBetween(pose.T_cloud_model, truth), 2 * M_PI / 180);
+  }
+}
+
+TEST_F(DetectorTest, findsThePartInThePapersMode)
+{
+  DetectorConfig config = coarseConfig();
+  config.poses_per_cluster = 1;
+  const DetectionResult result = detect(config);
+  ASSERT_EQ(result.status, DetectionStatus::kOk);
+  EXPECT_TRUE(isBracket(result.poses.front()));
+  EXPECT_LE(result.poses.size(), result.clusters.size());
+}
+
+TEST_F(DetectorTest, leavesThePoseAloneWithoutTheMismatchTest)
+{
+  DetectorConfig config = coarseConfig();
+  config.mismatch_test = false;
+  const DetectionResult result = detect(config);
+  ASSERT_EQ(result.status, DetectionStatus::kOk);
+  EXPECT_TRUE(isBracket(result.poses.front()));
+}
+
+TEST_F(DetectorTest, saysThatTheRegionIsEmpty)
+{
+  roi_.min.z() = 0.09;
+  const DetectionResult result = detect(coarseConfig());
+  EXPECT_EQ(result.status, DetectionStatus::kRoiEmpty);
+  EXPECT_EQ(result.roi_points, 0U);
+  EXPECT_TRUE(result.poses.empty());
+  EXPECT_FALSE(result.message.empty());
+}
+
+TEST_F(DetectorTest, findsNothingInACloudWithoutMeasurements)
+{
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  PointCloud nothing = cloud();
+  nothing.points.assign(nothing.points.size(), {kNan, kNan, kNan});
+  for (const bool with_roi : {false, true})
+  {
+    const auto roi = with_roi ? std::optional<RegionOfInterest>(roi_) : std::nullopt;
+    const DetectionResult result = Detector(coarseConfig()).detect(nothing, bracket_, roi);
+    EXPECT_EQ(result.status, DetectionStatus::kRoiEmpty);
+    EXPECT_TRUE(result.poses.empty());
+  }
+}
+
+TEST_F(DetectorTest, refusesCloudsThatContradictThemselves)
+{
+  DetectorConfig config = coarseConfig();
+  const auto expectRefused = [&](const PointCloud& bad, const std::string& word)
+  {
+    const DetectionResult result = Detector(config).detect(bad, bracket_, roi_);
+    EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
+    EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
+    EXPECT_TRUE(result.poses.empty());
+  };
+  expectRefused(PointCloud(), "no points");
+  PointCloud bad = cloud();
+  --bad.width;
+  expectRefused(bad, "width and height");
+  bad = cloud();
+  bad.normals.resize(3, Eigen::Vector3f::UnitZ());
+  expectRefused(bad, "normals");
+  config.use_cloud_normals = true;
+  expectRefused(cloud(), "use_cloud_normals");
+  config.use_cloud_normals = false;
+  config.max_points = 1000;
+  expectRefused(cloud(), "max_points");
+}
+
+TEST_F(DetectorTest, endsAtTheTimeLimitWithoutWrongPoses)
+{
+  DetectorConfig config = coarseConfig();
+  for (const double limit_s : {1e-6, 2e-3, 1e-2, 2e-2, 4e-2})
+  {
+    SCOPED_TRACE(limit_s);
+    config.time_limit_s = limit_s;
+    const DetectionResult result = detect(config);
+    if (limit_s == 1e-6)
+    {
+      EXPECT_EQ(result.status, DetectionStatus::kTimeLimit);
+      EXPECT_NE(result.message.find("time_limit_s"), std::string::npos) << result.message;
+    }
+    for (const DetectedPose& pose : result.poses)
+      EXPECT_TRUE(!pose.reliable || isBracket(pose));
+  }
+}
+
+TEST_F(DetectorTest, refusesModelsThatDoNotFit)
+{
+  const auto expectRefused =
+      [&](const Detector& detector, const RegionOfInterest& roi, const std::string& word)
+  {
+    try
+    {
+      detector.detect(cloud(), bracket_, roi);
+      FAIL() << "not refused";
+    }
+    catch (const std::invalid_argument& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  DetectorConfig config = coarseConfig();
+  config.model.step_rel = 0.09;
+  expectRefused(Detector(config), roi_, "step_rel");
+  config = coarseConfig();
+  config.model.n_angle = 31;
+  expectRefused(Detector(config), roi_, "n_angle");
+  expectRefused(Detector(coarseConfig()), {T_camera_table_, {0, 0, 0}, {0.02, 0.02, 0.02}}, "unit");
+  EXPECT_THROW(Detector(coarseConfig()).detect(cloud(), std::vector<const PpfModel*>()),
+               std::invalid_argument);
+}
+
+TEST(Detector, refusesAnUnusableConfiguration)
+{
+  DetectorConfig config;
+  config.lambda = 2;
+  config.v_min = 0;
+  try
+  {
+    Detector detector(config);
+    FAIL() << "not refused";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("lambda"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("v_min"), std::string::npos);
+  }
+}
+}  // namespace
+}  // namespace ppf_bin_picking
