@@ -141,6 +141,8 @@ std::size_t pcdPoints(const std::string& bytes, const std::string& path)
   const std::uint64_t point_bytes = pointBytes(header);
   if (point_bytes == 0 || point_bytes > kMaxPointBytes)
     refuse(path, "its FIELDS, SIZE, TYPE and COUNT do not fit together");
+  if (header.lines.count("VIEWPOINT") != 0 && header.values<double>("VIEWPOINT").size() != 7)
+    refuse(path, "its VIEWPOINT has not seven numbers");
   checkPcdData(header, bytes, points * point_bytes, path);
   return static_cast<std::size_t>(points);
 }

@@ -41,7 +41,9 @@ json toJson(const DetectedPose& pose)
           {"reliable", pose.reliable},
           {"reason", toString(pose.reason)},
           {"visible_fraction", pose.visible_fraction},
-          {"rms_error", pose.rms_error_m}};
+          {"rms_error", pose.rms_error_m},
+          {"slide_share", pose.slide_share},
+          {"evidence_balance", pose.evidence_balance}};
 }
 
 json toJson(const MismatchRegion& region)
@@ -75,6 +77,8 @@ DetectedPose poseFrom(const json& item)
   pose.reason = fromWord(kReasons, item.value("reason", std::string()));
   pose.visible_fraction = item.value("visible_fraction", 0.0);
   pose.rms_error_m = item.value("rms_error", 0.0);
+  pose.slide_share = item.value("slide_share", 0.0);
+  pose.evidence_balance = item.value("evidence_balance", 0.0);
   return pose;
 }
 

@@ -156,6 +156,9 @@ TEST_F(CloudFile, isRefusedIfItsHeaderContradictsItself)
 {
   expectHolds(errorOf("a.pcd", asciiPcd("WIDTH 1\nHEIGHT 1\nPOINTS 7\n")),
               "POINTS is not WIDTH times HEIGHT");
+  expectHolds(errorOf("a.pcd", std::string(kHead) + "WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0\nPOINTS 1\n" +
+                                   "DATA ascii\n0 0 1\n"),
+              "its VIEWPOINT has not seven numbers");
   expectHolds(errorOf("a.pcd", "hello"), "a line that PCD does not know");
   expectHolds(errorOf("a.pcd", ""), "its header has no line FIELDS");
   expectHolds(
