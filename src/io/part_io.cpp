@@ -104,6 +104,14 @@ void readSymmetries(const YamlMap& map, PartDescription& part)
 }
 }  // namespace
 
+DetectorConfig PartDescription::adapted(const DetectorConfig& config) const
+{
+  YAML::Node settings(YAML::NodeType::Map);
+  for (const auto& [key, value] : detector)
+    settings[key] = value;
+  return withSettings(config, settings, source + ": detector");
+}
+
 std::string findPackage(const std::string& package)
 {
   const char* roots = std::getenv("ROS_PACKAGE_PATH");
@@ -138,8 +146,10 @@ PartDescription loadPart(const std::string& path, const PackageFinder& finder)
     part.picks.push_back(readPick(item, metres(part.unit)));
   if (map.has("detector"))
   {
-    part.detector = map.node("detector");
-    withSettings(DetectorConfig(), part.detector, path + ": detector");
+    const YAML::Node settings = map.node("detector");
+    withSettings(DetectorConfig(), settings, path + ": detector");
+    for (const auto& item : settings)
+      part.detector[item.first.Scalar()] = item.second.Scalar();
   }
   return part;
 }

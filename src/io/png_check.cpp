@@ -23,8 +23,8 @@ void readHeader(const std::string& bytes, PngHeader& header)
   const std::size_t data = kSignatureBytes + 8;
   header.width = bigEndian(bytes, data);
   header.height = bigEndian(bytes, data + 4);
-  header.bit_depth = bytes[data + 8];
-  header.color_type = bytes[data + 9];
+  header.bit_depth = static_cast<unsigned char>(bytes[data + 8]);
+  header.color_type = static_cast<unsigned char>(bytes[data + 9]);
 }
 }  // namespace
 

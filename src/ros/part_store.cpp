@@ -47,8 +47,7 @@ PpfModel modelOf(const PartDescription& part, const DetectorConfig& config)
 
 LoadedPart loadedPart(const PartDescription& part, const ServerParams& params)
 {
-  const DetectorConfig config =
-      ppf_bin_picking::withSettings(params.detector, part.detector, part.source);
+  const DetectorConfig config = part.adapted(params.detector);
   LoadedPart loaded{{part.model_id, {}, {}}, config, modelOf(part, config)};
   std::optional<ppf_bin_picking::RegionOfInterest> roi;
   if (params.region_of_interest) roi = params.region_of_interest->region;

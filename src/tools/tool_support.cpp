@@ -66,9 +66,8 @@ ToolPart PartOptions::load() const
 {
   ToolPart loaded;
   loaded.description = loadPart(part);
-  loaded.config = config.empty() ? DetectorConfig() : loadDetectorConfig(config);
-  if (!loaded.description.detector.IsNull())
-    loaded.config = withSettings(loaded.config, loaded.description.detector, part + ": detector");
+  loaded.config =
+      loaded.description.adapted(config.empty() ? DetectorConfig() : loadDetectorConfig(config));
   LoadedMesh mesh = loadMesh(loaded.description.mesh_file, loaded.description.unit);
   for (const std::string& warning : mesh.warnings)
     report("warning: " + warning);

@@ -34,7 +34,7 @@ TEST_F(PartFile, needsNothingButTheUnit)
   EXPECT_EQ(part.symmetries().motions().size(), 1U);
   EXPECT_TRUE(part.picks.empty());
   EXPECT_TRUE(part.model_file.empty());
-  EXPECT_TRUE(part.detector.IsNull());
+  EXPECT_TRUE(part.detector.empty());
 }
 
 TEST_F(PartFile, isNamedByItsFolderIfItIsCalledPart)
@@ -81,7 +81,13 @@ TEST_F(PartFile, namesWhatIsWrong)
 
 TEST_F(PartFile, mayChangeSettingsWithinTheirRules)
 {
-  EXPECT_TRUE(load("unit: mm\ndetector: {min_score: 0.7}\n").detector.IsMap());
+  DetectorConfig config;
+  config.lambda = 0.25;
+  config = load("unit: mm\ndetector: {min_score: 0.7, clustering: greedy}\n").adapted(config);
+  EXPECT_EQ(config.min_score, 0.7);
+  EXPECT_EQ(config.clustering, Clustering::kGreedy);
+  EXPECT_EQ(config.lambda, 0.25);
+  EXPECT_EQ(config.min_visible_share, DetectorConfig().min_visible_share);
   expectHolds(error("unit: mm\ndetector: {min_scor: 0.7}\n"),
               "clip.yaml: detector: unknown key 'min_scor': the nearest known name is 'min_score'");
   expectHolds(error("unit: mm\ndetector: {min_score: 7}\n"), "min_score is 7");

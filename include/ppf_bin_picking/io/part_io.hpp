@@ -1,14 +1,15 @@
 /// @file The description of a part: mesh, unit, symmetries, picks.
 #pragma once
 
+#include "ppf_bin_picking/core/detector_config.hpp"
 #include "ppf_bin_picking/core/symmetry.hpp"
 
 #include "ppf_bin_picking/io/length_unit.hpp"
 
 #include <Eigen/Geometry>
-#include <yaml-cpp/yaml.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,11 @@ struct PartDescription
   std::vector<SymmetryAxis> symmetries_continuous;
   std::vector<Pick> picks;  ///< Best first.
   std::string model_file;   ///< Path of the trained model; empty: to be trained.
-  YAML::Node detector;      ///< Settings that differ for this part, for withSettings(). Checked.
-  std::string source;       ///< The part file, for messages.
+  std::map<std::string, std::string> detector;  ///< Settings that differ for this part. Checked.
+  std::string source;                           ///< The part file, for messages.
+
+  /// A configuration with the settings that differ for this part.
+  DetectorConfig adapted(const DetectorConfig& config) const;
 
   /// Never throws for a description that loadPart() returned.
   SymmetryGroup symmetries() const { return {symmetries_discrete, symmetries_continuous}; }
