@@ -165,12 +165,14 @@ OrientedPoints sampleVisibleSurface(TriangleMesh& mesh, float spacing_m)
   std::vector<SurfaceSample> samples = sampleTriangles(mesh, spacing_m);
   countViews(mesh, samples);
   orientTriangles(mesh, samples);
+  const bool closed =
+      RenderableMesh(mesh).closed;  // then no back is seen, whatever the tolerance lets through
   OrientedPoints cloud;
   for (const SurfaceSample& sample : samples)
   {
     const Eigen::Vector3f normal = scaledNormal(mesh, sample.triangle).normalized();
     if (sample.seen_front > 0) cloud.add(sample.point, normal);
-    if (sample.seen_back > kViews / 20) cloud.add(sample.point, -normal);
+    if (!closed && 4 * sample.seen_back > sample.seen_front) cloud.add(sample.point, -normal);
   }
   return cloud;
 }
