@@ -145,9 +145,15 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     const Candidate& candidate = candidates[selected[i].candidate];
     DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
     const PpfModel& model = *models[pose.model];
-    pose.reason = reasonOf(pose, shares[i], model, config);
+    ClusterShare share = shares[i];
+    if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
+    {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
+      const HypothesisCluster& cluster = result.clusters[static_cast<std::size_t>(pose.cluster)];
+      share = {cluster.box, cluster.hypotheses};
+    }
+    pose.reason = reasonOf(pose, share, model, config);
     pose.reliable = pose.reason == UnreliableReason::kNone;
-    if (!pose.reliable) result.regions.push_back(regionOf(pose, shares[i], model, config));
+    if (!pose.reliable) result.regions.push_back(regionOf(pose, share, model, config));
     result.poses.push_back(pose);
   }
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
