@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/core/ppf.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -86,6 +87,10 @@ PpfModelData checked(PpfModelData data)
   requireThat(!data.points.empty() && data.points.size() <= kMaxPoints,
               "the number of points is out of range");
   requireThat(data.points.size() == data.normals.size(), "points and normals differ in number");
+  const auto finite = [](const Eigen::Vector3f& v) { return v.allFinite(); };
+  requireThat(std::all_of(data.points.begin(), data.points.end(), finite) &&
+                  std::all_of(data.normals.begin(), data.normals.end(), finite),
+              "a point or normal is not finite");
   checkMesh(data.mesh);
   checkTable(data);
   return data;
