@@ -1,2 +1,9 @@
 # Unit tests of the core, one file each; built by the catkin package and by the core alone.
-set(core_tests test_detector test_detector_config test_paper_experiments test_symmetry)
+set(core_tests
+    test_detector
+    test_detector_config
+    test_paper_experiments
+    test_ppf
+    test_ppf_matcher
+    test_ppf_model
+    test_symmetry)
