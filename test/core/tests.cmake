@@ -1,8 +1,14 @@
 # Unit tests of the core, one file each; built by the catkin package and by the core alone.
 set(core_tests
+    test_dbscan
     test_detector
     test_detector_config
+    test_mismatch
+    test_neighbor_search
     test_paper_experiments
+    test_parallel
+    test_pca
+    test_pose_clustering
     test_ppf
     test_ppf_matcher
     test_ppf_model
