@@ -18,7 +18,7 @@ constexpr float kRingRel = 0.04F;  // width of the ring along the outline where 
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr int kSlideDirections = 8;     // over half a turn
 constexpr double kMissingWeight = 0.4;  // of a contradiction
-constexpr double kEdgeWeight = 4.0;     // of a missing edge, in pixels of surface
+constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
 
 /// One pixel of the rendered part.
 struct ModelPixel

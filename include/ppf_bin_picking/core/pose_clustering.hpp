@@ -27,11 +27,11 @@ struct PoseGroup
 std::vector<PoseHypothesis> highVoteHypotheses(const std::vector<PoseHypothesis>& hypotheses,
                                                double min_votes_rel);
 
-/// DBSCAN radius [m]: eps_rel of the diameter, or kEpsPerStep sampling steps if eps_rel is 0.
+/// DBSCAN radius [m]: eps_rel of the diameter, or one sampling step if eps_rel is 0.
 double dbscanRadius(const DetectorConfig& config, const PpfModel& model);
 
-/// DBSCAN core size: minpts, or, if that is 0, kCoreShare of the reference points that a part shows
-/// at best.
+/// DBSCAN core size: minpts, or, if that is 0, a twentieth of the reference points on the quarter
+/// of a part's surface that a camera sees, at least 3.
 std::size_t dbscanCoreSize(const DetectorConfig& config, const PpfModel& model);
 
 /// Labels each hypothesis with its cluster, writes it into `cluster`, and describes the clusters:
