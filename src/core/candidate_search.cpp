@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/candidate_search.hpp"
 
+#include "ppf_bin_picking/core/boundary_matcher.hpp"
 #include "ppf_bin_picking/core/pose_clustering.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/ppf_matcher.hpp"
@@ -41,6 +42,31 @@ Eigen::Isometry3f poseOf(const Eigen::Quaternionf& rotation, const Eigen::Vector
   pose.translation() = center_camera - pose.linear() * center_model;
   return pose;
 }
+
+float mostVotes(const std::vector<PoseHypothesis>& hypotheses)
+{
+  float most = 0;
+  for (const PoseHypothesis& hypothesis : hypotheses)
+    most = std::max(most, hypothesis.votes);
+  return most;
+}
+
+/// Appends the high-vote hypotheses of the boundary, their votes scaled to those already there.
+void addBoundaryHypotheses(const RangeImage& image, const PpfModel& model,
+                           const DetectorConfig& config, const Deadline& deadline,
+                           std::vector<PoseHypothesis>& distribution)
+{
+  const auto diameter_m = static_cast<float>(model.diameter());
+  const std::vector<BoundaryPoint> boundary = thinOutBoundary(
+      boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
+  std::vector<PoseHypothesis> found = highVoteHypotheses(
+      matchBoundary(boundary, model, config, deadline), config.min_votes_rel);
+  const float scale =
+      distribution.empty() || found.empty() ? 1.0F : mostVotes(distribution) / mostVotes(found);
+  for (PoseHypothesis& hypothesis : found)
+    hypothesis.votes *= scale;
+  distribution.insert(distribution.end(), found.begin(), found.end());
+}
 }  // namespace
 
 OrientedPoints sampleScene(const RangeImage& image, float step_m)
@@ -68,6 +94,8 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
   std::vector<PoseHypothesis> distribution =
       highVoteHypotheses(matchModel(scene, model, config, deadline), config.min_votes_rel);
   lap("voting");
+  addBoundaryHypotheses(image, model, config, deadline, distribution);
+  lap("boundary voting");
   std::vector<HypothesisCluster> clusters;
   if (config.clustering == Clustering::kDbscan)
     clusters = clusterHypotheses(config, model, distribution);

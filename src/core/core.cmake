@@ -8,6 +8,9 @@ set(core_dir "${CMAKE_CURRENT_LIST_DIR}")
 
 add_library(
   ${PROJECT_NAME}_core
+  ${core_dir}/boundary.cpp
+  ${core_dir}/boundary_matcher.cpp
+  ${core_dir}/boundary_table.cpp
   ${core_dir}/candidate_search.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_result.cpp
@@ -32,6 +35,7 @@ add_library(
   ${core_dir}/selection.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp
-  ${core_dir}/verification.cpp)
+  ${core_dir}/verification.cpp
+  ${core_dir}/viewpoints.cpp)
 target_include_directories(${PROJECT_NAME}_core PUBLIC "${core_dir}/../../include")
 target_link_libraries(${PROJECT_NAME}_core PUBLIC Eigen3::Eigen PRIVATE PkgConfig::tbb)

@@ -3,6 +3,8 @@
 #include "ppf_bin_picking/core/neighbor_search.hpp"
 #include "ppf_bin_picking/core/ppf.hpp"
 
+#include "vote_peaks.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +12,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr std::size_t kMaxPeakCells =
-    200;  // cells of an accumulator that are looked at for further peaks
-
 /// Votes over (model reference point, alpha bin) for one scene reference point.
 class Accumulator
 {
@@ -30,21 +29,7 @@ public:
     cells_[(entry >> 16) * alpha_bins_ + (alpha * alpha_bins_ >> 16)] += weight;
   }
 
-  /// Cells with at least a share of the most votes, most votes first, of equal ones the first.
-  std::vector<std::uint32_t> strongestCells(double share) const
-  {
-    const std::uint32_t most = *std::max_element(cells_.begin(), cells_.end());
-    const auto least =
-        std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::ceil(share * most)));
-    std::vector<std::uint32_t> strongest;
-    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell)
-      if (cells_[cell] >= least) strongest.push_back(cell);
-    std::stable_sort(strongest.begin(), strongest.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return cells_[a] > cells_[b]; });
-    if (strongest.size() > kMaxPeakCells) strongest.resize(kMaxPeakCells);
-    return strongest;
-  }
-
+  const std::vector<std::uint32_t>& cells() const { return cells_; }
   std::uint32_t votes(std::uint32_t cell) const { return cells_[cell]; }
   std::uint32_t reference(std::uint32_t cell) const { return cell / alpha_bins_; }
 
@@ -72,7 +57,6 @@ struct Matching
 {
   const OrientedPoints& scene;
   const PpfModelData& model;
-  const SymmetryGroup& symmetries;
   const DetectorConfig& config;
   FeatureQuantizer quantizer;
   NeighborSearch search;
@@ -121,28 +105,6 @@ PoseHypothesis poseOfCell(const Matching& matching, std::uint32_t reference,
   return hypothesis;
 }
 
-/// The best peak and further ones that are different poses.
-std::vector<PoseHypothesis> findPeaks(const Matching& matching, std::uint32_t reference,
-                                      const Accumulator& accumulator)
-{
-  const DetectorConfig& config = matching.config;
-  const float same_place_m =
-      static_cast<float>(config.group_distance_rel) * matching.model.diameter_m;
-  std::vector<PoseHypothesis> peaks;
-  for (const std::uint32_t cell : accumulator.strongestCells(config.peak_ratio))
-  {
-    if (peaks.size() == static_cast<std::size_t>(config.peaks_per_reference)) break;
-    const PoseHypothesis candidate = poseOfCell(matching, reference, accumulator, cell);
-    const auto same = [&](const PoseHypothesis& known)
-    {
-      return (known.center - candidate.center).norm() < same_place_m &&
-             matching.symmetries.rotationDistance(known.rotation, candidate.rotation) <
-                 config.group_angle_rad;
-    };
-    if (std::none_of(peaks.begin(), peaks.end(), same)) peaks.push_back(candidate);
-  }
-  return peaks;
-}
 }  // namespace
 
 std::uint32_t voteWeight(const Eigen::Vector3f& n1, const Eigen::Vector3f& n2, double lambda,
@@ -158,7 +120,6 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
   const PpfModelData& data = model.data();
   const Matching matching{scene,
                           data,
-                          model.symmetries(),
                           config,
                           FeatureQuantizer(data.parameters, data.diameter_m),
                           NeighborSearch(scene.points)};
@@ -172,7 +133,9 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
     const auto reference = static_cast<std::uint32_t>(i * scene.size() / references);
     accumulator.reset(data.points.size(), static_cast<std::uint32_t>(config.model.n_angle));
     castVotes(matching, reference, accumulator);
-    peaks[i] = findPeaks(matching, reference, accumulator);
+    peaks[i] = distinctPeaks(strongestCells(accumulator.cells(), config.peak_ratio), model, config,
+                             [&](std::uint32_t cell)
+                             { return poseOfCell(matching, reference, accumulator, cell); });
   };
   parallelFor(config.threads, references, match);
 

@@ -74,6 +74,25 @@ void checkTable(const PpfModelData& data)
   for (const std::uint32_t entry : data.entries)
     requireThat((entry >> 16) < data.points.size(), "an entry names a point that does not exist");
 }
+
+void checkBoundary(const BoundaryTable& table)
+{
+  requireThat(table.offsets.size() == BoundaryQuantizer::keyCount() + 1U,
+              "the boundary table's size is wrong");
+  requireThat(table.offsets.front() == 0 && table.offsets.back() == table.entries.size(),
+              "the boundary table's offsets do not fit its entries");
+  for (std::size_t k = 1; k < table.offsets.size(); ++k)
+    requireThat(table.offsets[k - 1] <= table.offsets[k],
+                "the boundary table's offsets do not ascend");
+  for (const std::uint32_t entry : table.entries)
+    requireThat(entry < table.points.size(),
+                "an entry of the boundary table names a point that does not exist");
+  for (const BoundaryPoint& boundary : table.points)
+    requireThat(boundary.point.allFinite() && boundary.normal.allFinite() &&
+                    boundary.outward.allFinite(),
+                "a boundary point is not finite");
+}
+
 /// The data as they are. @throw std::invalid_argument naming a contradiction.
 PpfModelData checked(PpfModelData data)
 {
@@ -93,6 +112,7 @@ PpfModelData checked(PpfModelData data)
               "a point or normal is not finite");
   checkMesh(data.mesh);
   checkTable(data);
+  checkBoundary(data.boundary);
   return data;
 }
 }  // namespace
@@ -126,6 +146,7 @@ PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetri
   data.points = std::move(samples.points);
   data.normals = std::move(samples.normals);
   buildTable(data);
+  data.boundary = buildBoundaryTable(RenderableMesh(data.mesh), data.center, data.diameter_m);
   return PpfModel(std::move(data));
 }
 

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/viewpoints.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,15 +20,6 @@ constexpr float kDepthToleranceRel = 0.004F;  // a sample this near to the depth
 constexpr float kMinViewCosine = 0.15F;       // flatter views decide nothing
 constexpr float kSameDirection = 0.8660254F;  // cosine of 30 degrees
 constexpr std::size_t kMaxSamples = 400000;
-
-/// Directions spread evenly over the sphere (spherical Fibonacci lattice).
-Eigen::Vector3f viewDirection(int index)
-{
-  const double z = 1.0 - (2.0 * index + 1.0) / kViews;
-  const double turn = 2.0 * M_PI * index * 0.6180339887498949;
-  const double r = std::sqrt(1.0 - z * z);
-  return Eigen::Vector3d(r * std::cos(turn), r * std::sin(turn), z).cast<float>();
-}
 
 struct SurfaceSample
 {
@@ -83,14 +75,8 @@ void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
   RenderableMesh part(mesh);
   part.closed = false;  // the winding may be inside out
   RenderedPart view;
-  for (int i = 0; i < kViews; ++i)
+  for (const Eigen::Isometry3f& T_camera_model : viewpointsAround(center, distance, kViews))
   {
-    const Eigen::Vector3f direction = viewDirection(i);  // from the part to the camera
-    Eigen::Isometry3f T_camera_model = Eigen::Isometry3f::Identity();
-    T_camera_model.linear() =
-        Eigen::Quaternionf::FromTwoVectors(direction, -Eigen::Vector3f::UnitZ()).toRotationMatrix();
-    T_camera_model.translation() =
-        Eigen::Vector3f(0, 0, distance) - T_camera_model.linear() * center;
     renderPart(part, T_camera_model, camera, view);
     for (SurfaceSample& sample : samples)
     {
@@ -131,7 +117,7 @@ float meshDiameter(const TriangleMesh& mesh)
   for (int i = 0; i < kDirections && mesh.vertices.size() > kDirections; ++i)
   {
     const Eigen::Vector3f direction =
-        viewDirection(i % kViews) + 0.1F * viewDirection((7 * i) % kViews);
+        evenDirection(i % kViews, kViews) + 0.1F * evenDirection((7 * i) % kViews, kViews);
     const auto farther = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
     { return a.dot(direction) < b.dot(direction); };
     extremes.push_back(*std::max_element(mesh.vertices.begin(), mesh.vertices.end(), farther));

@@ -103,7 +103,7 @@ template <class Archive, class Data, class Checksum>
 void visitContent(Archive& archive, Data& data, Checksum& mesh_checksum)
 {
   static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(SymmetryAxis) == 48 &&
-                    sizeof(DiscreteSymmetry) == 56 && sizeof(int) == 4,
+                    sizeof(DiscreteSymmetry) == 56 && sizeof(BoundaryPoint) == 36 && sizeof(int) == 4,
                 "these go into the file as they are");
   archive.number(mesh_checksum);
   archive.number(data.parameters.step_rel);
@@ -118,6 +118,9 @@ void visitContent(Archive& archive, Data& data, Checksum& mesh_checksum)
   archive.block(data.normals);
   archive.block(data.offsets);
   archive.block(data.entries);
+  archive.block(data.boundary.points);
+  archive.block(data.boundary.offsets);
+  archive.block(data.boundary.entries);
 }
 
 /// The reason why a file is not a model file; empty if its header and checksum are right.

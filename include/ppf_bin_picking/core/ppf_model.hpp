@@ -2,6 +2,7 @@
 /// symmetries.
 #pragma once
 
+#include "ppf_bin_picking/core/boundary_table.hpp"
 #include "ppf_bin_picking/core/detector_config.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/symmetry.hpp"
@@ -29,6 +30,7 @@ struct PpfModelData
   std::vector<Eigen::Vector3f> normals;               ///< Outward, unit length.
   std::vector<std::uint32_t> offsets;  ///< Entries of key k: [offsets[k], offsets[k + 1]).
   std::vector<std::uint32_t> entries;  ///< (reference index << 16) | alpha; a full turn is 65536.
+  BoundaryTable boundary;
 };
 
 /// A part as the detector knows it. Immutable; share it between threads.

@@ -11,7 +11,7 @@
 namespace ppf_bin_picking
 {
 /// Version of the file format; a file of another is refused.
-constexpr std::uint32_t kModelFileVersion = 1;
+constexpr std::uint32_t kModelFileVersion = 2;
 
 /// A model as read from its file.
 struct ModelFile
