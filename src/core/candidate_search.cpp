@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/candidate_search.hpp"
 
 #include "ppf_bin_picking/core/boundary_matcher.hpp"
+#include "ppf_bin_picking/core/neighbor_search.hpp"
 #include "ppf_bin_picking/core/pose_clustering.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/ppf_matcher.hpp"
@@ -43,29 +44,39 @@ Eigen::Isometry3f poseOf(const Eigen::Quaternionf& rotation, const Eigen::Vector
   return pose;
 }
 
-float mostVotes(const std::vector<PoseHypothesis>& hypotheses)
+/// Gives each group the cluster of the nearest hypothesis within a radius, so that what is known of
+/// a mismatching region holds for every pose in it.
+void joinClusters(const std::vector<PoseHypothesis>& distribution, float radius_m,
+                  std::vector<PoseGroup>& groups)
 {
-  float most = 0;
-  for (const PoseHypothesis& hypothesis : hypotheses)
-    most = std::max(most, hypothesis.votes);
-  return most;
+  std::vector<Eigen::Vector3f> centers;
+  for (const PoseHypothesis& hypothesis : distribution)
+    centers.push_back(hypothesis.center);
+  if (centers.empty()) return;
+  const NeighborSearch search(centers);
+  std::vector<std::pair<std::uint32_t, float>> nearest;
+  for (PoseGroup& group : groups)
+  {
+    search.nearest(group.center, 1, nearest);
+    const auto& [index, squared_distance] = nearest.front();
+    group.cluster = squared_distance < radius_m * radius_m ? distribution[index].cluster : -1;
+  }
 }
 
-/// Appends the high-vote hypotheses of the boundary, their votes scaled to those already there.
-void addBoundaryHypotheses(const RangeImage& image, const PpfModel& model,
-                           const DetectorConfig& config, const Deadline& deadline,
-                           std::vector<PoseHypothesis>& distribution)
+/// What the boundary votes for.
+std::vector<PoseGroup> boundaryPoses(const RangeImage& image, const PpfModel& model,
+                                     const DetectorConfig& config, const Deadline& deadline,
+                                     const std::vector<PoseHypothesis>& distribution)
 {
   const auto diameter_m = static_cast<float>(model.diameter());
   const std::vector<BoundaryPoint> boundary = thinOutBoundary(
       boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
-  std::vector<PoseHypothesis> found = highVoteHypotheses(
-      matchBoundary(boundary, model, config, deadline), config.min_votes_rel);
-  const float scale =
-      distribution.empty() || found.empty() ? 1.0F : mostVotes(distribution) / mostVotes(found);
-  for (PoseHypothesis& hypothesis : found)
-    hypothesis.votes *= scale;
-  distribution.insert(distribution.end(), found.begin(), found.end());
+  std::vector<PoseGroup> groups =
+      groupPoses(config, model,
+                 highVoteHypotheses(matchBoundary(boundary, model, config, deadline),
+                                    config.min_votes_rel));
+  joinClusters(distribution, static_cast<float>(dbscanRadius(config, model)), groups);
+  return groups;
 }
 }  // namespace
 
@@ -94,16 +105,18 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
   std::vector<PoseHypothesis> distribution =
       highVoteHypotheses(matchModel(scene, model, config, deadline), config.min_votes_rel);
   lap("voting");
-  addBoundaryHypotheses(image, model, config, deadline, distribution);
-  lap("boundary voting");
   std::vector<HypothesisCluster> clusters;
   if (config.clustering == Clustering::kDbscan)
     clusters = clusterHypotheses(config, model, distribution);
   lap("clustering");
-  const std::vector<PoseGroup> groups =
-      worthRefining(candidatePoses(config, model, distribution, clusters.size()), config,
-                    kPlaceRel * static_cast<float>(model.diameter()));
+  const float place_m = kPlaceRel * static_cast<float>(model.diameter());
+  std::vector<PoseGroup> groups =
+      worthRefining(candidatePoses(config, model, distribution, clusters.size()), config, place_m);
   lap("grouping");
+  const std::vector<PoseGroup> by_boundary = worthRefining(
+      boundaryPoses(image, model, config, deadline, distribution), config, place_m);
+  groups.insert(groups.end(), by_boundary.begin(), by_boundary.end());
+  lap("boundary voting");
 
   const auto first_cluster = static_cast<std::int32_t>(result.clusters.size());
   const std::size_t first_candidate = candidates.size();
