@@ -18,14 +18,14 @@ constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
-/// The groups worth refining: most votes first, a few a place, max_candidates in all.
+/// The groups worth refining: most votes first, a few a place.
 std::vector<PoseGroup> worthRefining(const std::vector<PoseGroup>& groups,
-                                     const DetectorConfig& config, float place_m)
+                                     std::size_t most, float place_m)
 {
   std::vector<PoseGroup> chosen;
   for (const PoseGroup& group : groups)
   {
-    if (chosen.size() == static_cast<std::size_t>(config.max_candidates)) break;
+    if (chosen.size() == most) break;
     const auto here = std::count_if(chosen.begin(), chosen.end(),
                                     [&](const PoseGroup& other)
                                     { return (other.center - group.center).norm() < place_m; });
@@ -110,11 +110,12 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
     clusters = clusterHypotheses(config, model, distribution);
   lap("clustering");
   const float place_m = kPlaceRel * static_cast<float>(model.diameter());
+  const auto most = static_cast<std::size_t>(config.max_candidates + 1) / 2;  // of either kind
   std::vector<PoseGroup> groups =
-      worthRefining(candidatePoses(config, model, distribution, clusters.size()), config, place_m);
+      worthRefining(candidatePoses(config, model, distribution, clusters.size()), most, place_m);
   lap("grouping");
   const std::vector<PoseGroup> by_boundary = worthRefining(
-      boundaryPoses(image, model, config, deadline, distribution), config, place_m);
+      boundaryPoses(image, model, config, deadline, distribution), most, place_m);
   groups.insert(groups.end(), by_boundary.begin(), by_boundary.end());
   lap("boundary voting");
 

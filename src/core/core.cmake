@@ -8,6 +8,7 @@ set(core_dir "${CMAKE_CURRENT_LIST_DIR}")
 
 add_library(
   ${PROJECT_NAME}_core
+  ${core_dir}/ambiguity.cpp
   ${core_dir}/boundary.cpp
   ${core_dir}/boundary_matcher.cpp
   ${core_dir}/boundary_table.cpp

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/pose_report.hpp"
 
+#include "ppf_bin_picking/core/ambiguity.hpp"
 #include "ppf_bin_picking/core/mismatch.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
 
@@ -89,7 +90,6 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, doubl
   pose.visible_fraction = visibleFraction(candidate.evidence);
   pose.rms_error_m = candidate.evidence.rms_error_m;
   pose.support = candidate.evidence.support();
-  pose.slide_share = candidate.evidence.slide_share;
   pose.evidence_balance = balance / std::max(1.0, candidate.evidence.confirmed_weight);
   pose.cluster = candidate.cluster;
   return pose;
@@ -127,7 +127,8 @@ std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candida
 
 void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                  const std::vector<Candidate>& candidates,
-                 const std::vector<SelectedPose>& selected, DetectionResult& result)
+                 const std::vector<SelectedPose>& selected, std::size_t pixels,
+                 DetectionResult& result)
 {
   std::vector<Eigen::Vector3f> centers;
   std::vector<std::int32_t> clusters;
@@ -140,10 +141,14 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     if (candidate.cluster >= 0) has_pose[static_cast<std::size_t>(candidate.cluster)] = true;
   }
   const std::vector<ClusterShare> shares = shareClusters(result.distribution, centers, clusters);
+  const std::vector<Ambiguity> ambiguities =
+      assessAmbiguity(models, config, candidates, selected, pixels);
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
     DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
+    pose.slide_share = ambiguities[i].slide_share;
+    pose.margin = ambiguities[i].margin;
     const PpfModel& model = *models[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)

@@ -4,7 +4,6 @@
 #include "ppf_bin_picking/core/outline.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace ppf_bin_picking
@@ -16,7 +15,6 @@ constexpr float kUnseenFacing =
 constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
-constexpr int kSlideDirections = 8;     // over half a turn
 constexpr double kMissingWeight = 0.4;  // of a contradiction
 constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
 
@@ -134,27 +132,28 @@ private:
     return beyond == 0;
   }
 
-  /// Compares the outline, and finds the direction in which it would least stop a slide.
   void compareOutline()
   {
-    std::array<double, kSlideDirections> held{}, broken{};
     for (const OutlinePoint& point : outlineOf(view_, image_.camera, 1))
     {
       const OutlineEnd end = matchOutline(image_, point, point.point, gate_m_, edge_reach_px_).end;
       if (end == OutlineEnd::kHidden || end == OutlineEnd::kMissing) continue;
       const bool holds = end == OutlineEnd::kBehind;
       ++(holds ? evidence_.outline_held : evidence_.outline_broken);
-      for (int i = 0; i < kSlideDirections; ++i)
-      {
-        const auto angle = static_cast<float>(M_PI * i / kSlideDirections);
-        const float cosine = point.direction.dot(Eigen::Vector2f(std::cos(angle), std::sin(angle)));
-        const float stops = cosine * cosine * cosine * cosine;
-        (holds ? held : broken)[static_cast<std::size_t>(i)] += stops;
-      }
+      if (end == OutlineEnd::kGoesOn)
+        evidence_.goes_on.push_back({pixelBeyond(point), point.direction});
+      else
+        addSlideStop(point.direction, holds ? evidence_.slide_held : evidence_.slide_broken);
     }
-    for (std::size_t i = 0; i < kSlideDirections; ++i)
-      if (held[i] + broken[i] > 0)
-        evidence_.slide_share = std::max(evidence_.slide_share, broken[i] / (held[i] + broken[i]));
+  }
+
+  /// The pixel as far beyond the outline as it was followed.
+  std::uint32_t pixelBeyond(const OutlinePoint& point) const
+  {
+    const Eigen::Vector2f at = image_.camera.project(point.point) +
+                               static_cast<float>(edge_reach_px_) * point.direction;
+    return static_cast<std::uint32_t>(image_.index(static_cast<int>(std::lround(at.x())),
+                                                   static_cast<int>(std::lround(at.y()))));
   }
 
   const RangeImage& image_;
@@ -167,6 +166,17 @@ private:
   float squared_error_ = 0;
 };
 }  // namespace
+
+void addSlideStop(const Eigen::Vector2f& outward, SlideStops& stops)
+{
+  for (std::size_t i = 0; i < stops.size(); ++i)
+  {
+    const auto angle = static_cast<float>(M_PI) * static_cast<float>(i) /
+                       static_cast<float>(stops.size());
+    const float cosine = outward.dot(Eigen::Vector2f(std::cos(angle), std::sin(angle)));
+    stops[i] += cosine * cosine * cosine * cosine;
+  }
+}
 
 PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)

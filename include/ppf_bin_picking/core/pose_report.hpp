@@ -15,7 +15,9 @@ std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candida
 
 /// Writes the standing candidates as poses, reliable ones first, and a region for every one that is
 /// not, with its reason. Mismatching clusters without a pose become regions, too.
+/// @param pixels  Of the image.
 void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                  const std::vector<Candidate>& candidates,
-                 const std::vector<SelectedPose>& selected, DetectionResult& result);
+                 const std::vector<SelectedPose>& selected, std::size_t pixels,
+                 DetectionResult& result);
 }  // namespace ppf_bin_picking

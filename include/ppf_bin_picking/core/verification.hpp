@@ -7,11 +7,19 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace ppf_bin_picking
 {
+/// Weight of outline pixels against slides, by the slide's direction over half a turn in the image.
+using SlideStops = std::array<double, 8>;
+
+/// Adds an outline pixel: it stops slides across it, weighed by the fourth power of the cosine.
+/// @param outward  Across the outline, in the image, unit length.
+void addSlideStop(const Eigen::Vector2f& outward, SlideStops& stops);
+
 /// The pixels that a free part at the pose would cover, sorted by what was measured there. Sums of
 /// weights: a pixel counts less the flatter the surface lies to the line of sight, as sensors see
 /// little of such surfaces.
@@ -22,6 +30,12 @@ struct PoseEvidence
   {
     std::uint32_t index;  ///< Into the image.
     float weight;         ///< In [0, 1].
+  };
+  /// Where the measured surface goes on beyond the outline.
+  struct Continuation
+  {
+    std::uint32_t pixel;        ///< Just beyond, index into the image.
+    Eigen::Vector2f direction;  ///< Out of the part, unit length.
   };
   std::vector<Pixel> confirmed;  ///< Surface and normal agree, inside the region.
   int visible_px = 0;            ///< All pixels that nothing in front hides, unweighted.
@@ -34,8 +48,9 @@ struct PoseEvidence
   double outline_held = 0;       ///< Outline pixels where the measured surface ends, too.
   double outline_broken =
       0;  ///< Outline pixels beyond which the surface goes on, or where it is absent.
-  double slide_share =
-      0;  ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
+  SlideStops slide_held{};             ///< Of outline_held.
+  SlideStops slide_broken{};           ///< Of outline_broken, where the surface is absent.
+  std::vector<Continuation> goes_on;   ///< The rest of outline_broken.
   float rms_error_m = 0;  ///< Of the confirmed pixels, along their normals.
 
   /// Share of the pixels not hidden that are confirmed, unweighted. [0, 1]

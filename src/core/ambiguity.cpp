@@ -1,0 +1,115 @@
+#include "ppf_bin_picking/core/ambiguity.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr double kRivalShare = 0.5;  // of a pose's pixels that a rival claims at least
+
+/// The standing pose that owns each pixel; -1: none.
+using Owners = std::vector<std::int32_t>;
+
+Owners ownersOf(const std::vector<Candidate>& candidates, const std::vector<SelectedPose>& selected,
+                std::size_t pixels)
+{
+  Owners owners(pixels, -1);
+  for (std::size_t i = 0; i < selected.size(); ++i)
+    for (const PoseEvidence::Pixel& pixel : candidates[selected[i].candidate].evidence.confirmed)
+      if (owners[pixel.index] < 0) owners[pixel.index] = static_cast<std::int32_t>(i);
+  return owners;
+}
+
+/// The share of the outline against the worst slide that does not hold.
+double slideShare(const PoseEvidence& evidence, std::int32_t self, const Owners& owners,
+                  const std::vector<bool>& held_poses)
+{
+  SlideStops held = evidence.slide_held, broken = evidence.slide_broken;
+  for (const PoseEvidence::Continuation& continuation : evidence.goes_on)
+  {
+    const std::int32_t owner = owners[continuation.pixel];
+    const bool stops = owner >= 0 && owner != self && held_poses[static_cast<std::size_t>(owner)];
+    addSlideStop(continuation.direction, stops ? held : broken);
+  }
+  double worst = 0;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k] + broken[k] > 0) worst = std::max(worst, broken[k] / (held[k] + broken[k]));
+  return worst;
+}
+
+void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& candidates,
+                  const std::vector<SelectedPose>& selected, const Owners& owners,
+                  std::vector<Ambiguity>& ambiguities)
+{
+  std::vector<bool> held(selected.size(), false);
+  for (bool changed = true; changed;)
+  {
+    changed = false;
+    for (std::size_t i = 0; i < selected.size(); ++i)
+    {
+      if (held[i]) continue;
+      ambiguities[i].slide_share = slideShare(candidates[selected[i].candidate].evidence,
+                                              static_cast<std::int32_t>(i), owners, held);
+      held[i] = ambiguities[i].slide_share <= config.max_slide_share;
+      changed = changed || held[i];
+    }
+  }
+}
+
+bool samePose(const Candidate& a, const Candidate& b, const std::vector<const PpfModel*>& models,
+              const DetectorConfig& config)
+{
+  if (a.model != b.model) return false;
+  const PpfModel& model = *models[a.model];
+  const Eigen::Vector3f& center = model.data().center;
+  return (a.T_camera_model * center - b.T_camera_model * center).norm() <
+             config.group_distance_rel * model.diameter() &&
+         model.symmetries().rotationDistance(Eigen::Quaternionf(a.T_camera_model.linear()),
+                                             Eigen::Quaternionf(b.T_camera_model.linear())) <
+             config.group_angle_rad;
+}
+
+void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                  const std::vector<Candidate>& candidates,
+                  const std::vector<SelectedPose>& selected, const Owners& owners,
+                  std::vector<Ambiguity>& ambiguities)
+{
+  std::vector<double> owned(selected.size());
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+  {
+    const PoseEvidence& rival = candidates[c].evidence;
+    std::fill(owned.begin(), owned.end(), 0.0);
+    double free = 0;
+    for (const PoseEvidence::Pixel& pixel : rival.confirmed)
+      (owners[pixel.index] < 0 ? free : owned[static_cast<std::size_t>(owners[pixel.index])]) +=
+          pixel.weight;
+    for (std::size_t i = 0; i < selected.size(); ++i)
+    {
+      const Candidate& pose = candidates[selected[i].candidate];
+      const double confirmed = std::max(1.0, selected[i].confirmed);
+      if (owned[i] < kRivalShare * confirmed || c == selected[i].candidate ||
+          samePose(pose, candidates[c], models, config))
+        continue;
+      const double lead = evidenceBalance(pose.evidence, selected[i].confirmed) -
+                          evidenceBalance(rival, free + owned[i]);
+      ambiguities[i].margin = std::min(ambiguities[i].margin, lead / confirmed);
+    }
+  }
+}
+}  // namespace
+
+std::vector<Ambiguity> assessAmbiguity(const std::vector<const PpfModel*>& models,
+                                       const DetectorConfig& config,
+                                       const std::vector<Candidate>& candidates,
+                                       const std::vector<SelectedPose>& selected,
+                                       std::size_t pixels)
+{
+  std::vector<Ambiguity> ambiguities(selected.size());
+  const Owners owners = ownersOf(candidates, selected, pixels);
+  assessSlides(config, candidates, selected, owners, ambiguities);
+  assessRivals(models, config, candidates, selected, owners, ambiguities);
+  return ambiguities;
+}
+}  // namespace ppf_bin_picking
