@@ -8,6 +8,8 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr float kPlaneFacing = 0.3F;    // flatter surfaces are not extended beyond the outline
+constexpr float kLeastFacing = 0.02F;  // flatter surfaces count as this flat
+constexpr float kSlopeMargin = 1.5F;   // pixels of slope that are no step
 constexpr int kDirectionRadius_px = 2;  // window that gives the outline's direction
 
 bool covered(const RenderedPart& view, int column, int row)
@@ -16,13 +18,26 @@ bool covered(const RenderedPart& view, int column, int row)
          view.depthAt(column, row) > 0;
 }
 
-/// From the part's pixels to the others around a pixel; zero if they balance.
-Eigen::Vector2f outwardDirection(const RenderedPart& view, int column, int row)
+/// How much deeper the surface at a pixel gets over one pixel, at most [m].
+float slopeAt(const RenderedPart& view, const PinholeCamera& camera, int column, int row)
+{
+  const float z = view.depthAt(column, row);
+  const Eigen::Vector3f ray =
+      camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
+  const Eigen::Vector3f& normal =
+      view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
+  const float cosine = std::max(kLeastFacing, std::abs(normal.dot(ray)) / ray.norm());
+  return z / camera.fx * std::sqrt(1 - std::min(1.0F, cosine * cosine)) / cosine;
+}
+
+/// From the surface's pixels to the others around a pixel; zero if they balance.
+Eigen::Vector2f outwardDirection(const RenderedPart& view, const PinholeCamera& camera, int column,
+                                 int row, float jump_m)
 {
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   for (int dr = -kDirectionRadius_px; dr <= kDirectionRadius_px; ++dr)
     for (int dc = -kDirectionRadius_px; dc <= kDirectionRadius_px; ++dc)
-      if (!covered(view, column + dc, row + dr))
+      if (surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m))
         sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
   const float length = sum.norm();
   return length > 1 ? Eigen::Vector2f(sum / length) : Eigen::Vector2f::Zero();
@@ -54,8 +69,21 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
 }
 }  // namespace
 
+bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+                 int next_column, int next_row, float jump_m)
+{
+  if (!covered(view, next_column, next_row)) return true;
+  const float fall_m = view.depthAt(next_column, next_row) - view.depthAt(column, row);
+  if (fall_m < jump_m) return false;
+  const auto distance_px = static_cast<float>(
+      std::max(std::abs(next_column - column), std::abs(next_row - row)));
+  const float slope_m = std::max(slopeAt(view, camera, column, row),
+                                 slopeAt(view, camera, next_column, next_row));
+  return fall_m > jump_m + kSlopeMargin * distance_px * slope_m;
+}
+
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
-                                    int stride)
+                                    float jump_m, int stride)
 {
   std::vector<OutlinePoint> outline;
   int seen = 0;
@@ -63,15 +91,17 @@ std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamer
     for (int column = 0; column < view.width; ++column)
     {
       if (!covered(view, column, row)) continue;
-      const bool inner = covered(view, column - 1, row) && covered(view, column + 1, row) &&
-                         covered(view, column, row - 1) && covered(view, column, row + 1);
+      const float z = view.depthAt(column, row);
+      const auto ends = [&](int dc, int dr)
+      { return surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m); };
+      const bool inner = !ends(-1, 0) && !ends(1, 0) && !ends(0, -1) && !ends(0, 1);
       if (inner || seen++ % stride != 0) continue;
       OutlinePoint point;
-      point.direction = outwardDirection(view, column, row);
+      point.direction = outwardDirection(view, camera, column, row, jump_m);
       if (point.direction.isZero()) continue;
       const Eigen::Vector3f ray =
           camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
-      point.point = ray * view.depthAt(column, row);
+      point.point = ray * z;
       fillProfile(view, camera, column, row, point);
       outline.push_back(point);
     }

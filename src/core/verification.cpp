@@ -34,6 +34,7 @@ public:
       : image_(image),
         view_(view),
         gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
+        jump_m_(boundaryJump(diameter_m)),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
     const float depth_m =
@@ -119,22 +120,15 @@ private:
   {
     for (int k = 1; k <= ring_px_; ++k)
       for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-        if (endsTowards(column, row, k * du, k * dv)) return k - 1;
+        if (surfaceEnds(view_, image_.camera, column, row, column + k * du, row + k * dv, jump_m_))
+          return k - 1;
     return ring_px_;
   }
 
-  /// True if the part ends, or falls off to a surface farther back, at the next pixel.
-  bool endsTowards(int column, int row, int du, int dv) const
-  {
-    const int c = column + du, r = row + dv;
-    if (c < 0 || r < 0 || c >= view_.width || r >= view_.height) return true;
-    const float beyond = view_.depthAt(c, r);
-    return beyond == 0;
-  }
-
+  /// Follows the measured surface across the outline.
   void compareOutline()
   {
-    for (const OutlinePoint& point : outlineOf(view_, image_.camera, 1))
+    for (const OutlinePoint& point : outlineOf(view_, image_.camera, jump_m_, 1))
     {
       const OutlineEnd end = matchOutline(image_, point, point.point, gate_m_, edge_reach_px_).end;
       if (end == OutlineEnd::kHidden || end == OutlineEnd::kMissing) continue;
@@ -159,6 +153,7 @@ private:
   const RangeImage& image_;
   const RenderedPart& view_;
   float gate_m_;
+  float jump_m_;
   float min_normal_cosine_;
   int edge_reach_px_ = 2;
   int ring_px_ = 1;

@@ -24,10 +24,17 @@ struct OutlinePoint
   std::array<float, 2 * kOutlineReach_px + 1> profile_m;
 };
 
-/// Points of the outline of a rendered part: pixels with part on one side and none on the other.
+/// True if the surface at a pixel of a rendered part ends before another pixel nearby: the part is
+/// not there, or deeper by more than a fall and what the surfaces' slopes explain.
+bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+                 int next_column, int next_row, float jump_m);
+
+/// Points of the outline of a rendered part: pixels with the part's surface on one side and, on the
+/// other, nothing or a part of it that lies deeper: rims of holes belong to the outline.
+/// @param jump_m  Least fall within the part.
 /// @param stride  Every so many of them.
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
-                                    int stride);
+                                    float jump_m, int stride);
 
 /// What was measured across an outline point.
 enum class OutlineEnd
