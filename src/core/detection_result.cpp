@@ -14,6 +14,8 @@ const char* toString(UnreliableReason reason)
       return "LOW_SCORE";
     case UnreliableReason::kOverlap:
       return "OVERLAP";
+    case UnreliableReason::kRunnerUp:
+      return "RUNNER_UP";
     case UnreliableReason::kNone:
       break;
   }

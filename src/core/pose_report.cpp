@@ -40,6 +40,7 @@ UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
     return UnreliableReason::kSpread;
   if (config.mismatch_test && pose.slide_share > config.max_slide_share)
     return UnreliableReason::kSlippage;
+  if (config.mismatch_test && pose.margin < config.min_margin) return UnreliableReason::kRunnerUp;
   if (pose.score < config.min_score || pose.support < config.min_support ||
       pose.visible_fraction < config.min_visible_share)
     return UnreliableReason::kLowScore;
@@ -57,6 +58,10 @@ std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const 
     return "the measured surface goes on beyond " + percent(pose.slide_share) +
            " of the outline that should stop a slide (max_slide_share " +
            percent(config.max_slide_share) + ")";
+  if (pose.reason == UnreliableReason::kRunnerUp)
+    return "another pose explains the same points almost as well: it lacks " +
+           percent(pose.margin) + " of the evidence (min_margin " + percent(config.min_margin) +
+           ")";
   return "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
          "), support " + percent(pose.support) + " (min_support " + percent(config.min_support) +
          "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +

@@ -141,13 +141,14 @@ private:
     }
   }
 
-  /// The pixel as far beyond the outline as it was followed.
+  /// The pixel as far beyond the outline as it is followed, or the last one of the image.
   std::uint32_t pixelBeyond(const OutlinePoint& point) const
   {
     const Eigen::Vector2f at = image_.camera.project(point.point) +
                                static_cast<float>(edge_reach_px_) * point.direction;
-    return static_cast<std::uint32_t>(image_.index(static_cast<int>(std::lround(at.x())),
-                                                   static_cast<int>(std::lround(at.y()))));
+    const int u = std::clamp(static_cast<int>(std::lround(at.x())), 0, image_.camera.width - 1);
+    const int v = std::clamp(static_cast<int>(std::lround(at.y())), 0, image_.camera.height - 1);
+    return static_cast<std::uint32_t>(image_.index(u, v));
   }
 
   const RangeImage& image_;

@@ -19,9 +19,9 @@ constexpr double kMilliseconds = 1000.0;
 constexpr std::array<DetectionStatus, 5> kStatuses = {
     DetectionStatus::kOk, DetectionStatus::kNoPickablePose, DetectionStatus::kRoiEmpty,
     DetectionStatus::kTimeLimit, DetectionStatus::kBadCloud};
-constexpr std::array<UnreliableReason, 5> kReasons = {
+constexpr std::array<UnreliableReason, 6> kReasons = {
     UnreliableReason::kSpread, UnreliableReason::kSlippage, UnreliableReason::kLowScore,
-    UnreliableReason::kOverlap, UnreliableReason::kNone};
+    UnreliableReason::kOverlap, UnreliableReason::kRunnerUp, UnreliableReason::kNone};
 
 /// The value whose toString() is a word.
 template <class Values>

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -28,6 +30,22 @@ TEST(ParallelFor, throwsWhatABodyThrows)
     if (i == 70) throw std::runtime_error("seventy");
   };
   EXPECT_THROW(parallelFor(2, 100, body), std::runtime_error);
+}
+
+TEST(ParallelFor, runsAsManyThreadsAsAskedWhateverTheCores)
+{
+  constexpr int kThreads = 4;
+  std::atomic<int> arrived{0};
+  const Deadline deadline(30);
+  const auto wait_for_all = [&](std::size_t)
+  {
+    ++arrived;
+    while (arrived < kThreads && !deadline.passed())
+      std::this_thread::yield();
+  };
+  parallelFor(kThreads, kThreads, wait_for_all);
+  EXPECT_FALSE(deadline.passed());
+  EXPECT_EQ(arrived, kThreads);
 }
 
 TEST(Deadline, passesOnlyIfThereIsOne)

@@ -28,10 +28,11 @@ enum class UnreliableReason : std::uint8_t
   kSlippage = 1,  ///< The fit can slide.
   kLowScore = 2,  ///< The cloud confirms too little of it.
   kOverlap = 3,   ///< It shares space with a better pose.
+  kRunnerUp = 4,  ///< Another pose explains the same points almost as well.
   kNone = 255,    ///< Reliable.
 };
 
-/// `SPREAD`, `SLIPPAGE`, `LOW_SCORE`, `OVERLAP`; empty for kNone.
+/// `SPREAD`, `SLIPPAGE`, `LOW_SCORE`, `OVERLAP`, `RUNNER_UP`; empty for kNone.
 const char* toString(UnreliableReason reason);
 
 /// A vote peak of one reference point.

@@ -40,10 +40,10 @@ struct DetectorConfig
   int normal_radius_px = 2;          ///< Half window of the plane fits in the image. In [1, 10].
 
   // Voting
-  double reference_share = 0.2;  ///< Share of the scene points that are reference points. (0, 1].
+  double reference_share = 0.1;  ///< Share of the scene points that are reference points. (0, 1].
   double lambda = 0.0;           ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
   double v_min = 0.1;            ///< Smallest weight of a vote. (0, 1].
-  int peaks_per_reference = 3;   ///< Peaks kept of each reference point's accumulator. [1, 10].
+  int peaks_per_reference = 5;   ///< Peaks kept of each reference point's accumulator. [1, 10].
   double peak_ratio = 0.9;       ///< Further peaks reach this share of the best. (0, 1].
 
   // Clustering
@@ -58,7 +58,8 @@ struct DetectorConfig
   // Mismatching regions
   bool mismatch_test = true;     ///< Mark poses that spread or slide as unreliable.
   double max_spread_rel = 1.5;   ///< Largest sum of a cluster's box sides. > 0.
-  double max_slide_share = 0.7;  ///< Largest share of open outline against a slide. [0, 1].
+  double max_slide_share = 0.75;  ///< Largest share of open outline against a slide. [0, 1].
+  double min_margin = 0.1;       ///< Least lead over the best other pose there. [-1, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;        ///< Poses that are refined and verified at most. >= 1.
@@ -104,6 +105,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("mismatch_test", config.mismatch_test);
   visit("max_spread_rel", config.max_spread_rel);
   visit("max_slide_share", config.max_slide_share);
+  visit("min_margin", config.min_margin);
   visit("max_candidates", config.max_candidates);
   visit("icp_iterations", config.icp_iterations);
   visit("depth_gate_rel", config.depth_gate_rel);
