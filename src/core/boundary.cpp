@@ -99,7 +99,8 @@ std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m)
       if (!ends) continue;
       const Eigen::Vector2f away = awayFromSurface(image, u, v, jump_m);
       BoundaryPoint boundary;
-      if (!away.isZero() && frameAt(image, u, v, away, jump_m, boundary)) points.push_back(boundary);
+      if (!away.isZero() && frameAt(image, u, v, away, jump_m, boundary))
+        points.push_back(boundary);
     }
   return points;
 }

@@ -13,8 +13,7 @@ PoseHypothesis poseOfMatch(const BoundaryPoint& scene, const BoundaryPoint& mode
                            std::uint32_t votes)
 {
   PoseHypothesis hypothesis;
-  hypothesis.rotation =
-      Eigen::Quaternionf(scene.frame() * model.frame().transpose()).normalized();
+  hypothesis.rotation = Eigen::Quaternionf(scene.frame() * model.frame().transpose()).normalized();
   hypothesis.center = scene.point - hypothesis.rotation * model.point;
   hypothesis.votes = static_cast<float>(votes);
   return hypothesis;

@@ -19,8 +19,8 @@ constexpr float kPlaceRel =
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.
-std::vector<PoseGroup> worthRefining(const std::vector<PoseGroup>& groups,
-                                     std::size_t most, float place_m)
+std::vector<PoseGroup> worthRefining(const std::vector<PoseGroup>& groups, std::size_t most,
+                                     float place_m)
 {
   std::vector<PoseGroup> chosen;
   for (const PoseGroup& group : groups)
@@ -69,12 +69,11 @@ std::vector<PoseGroup> boundaryPoses(const RangeImage& image, const PpfModel& mo
                                      const std::vector<PoseHypothesis>& distribution)
 {
   const auto diameter_m = static_cast<float>(model.diameter());
-  const std::vector<BoundaryPoint> boundary = thinOutBoundary(
-      boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
-  std::vector<PoseGroup> groups =
-      groupPoses(config, model,
-                 highVoteHypotheses(matchBoundary(boundary, model, config, deadline),
-                                    config.min_votes_rel));
+  const std::vector<BoundaryPoint> boundary =
+      thinOutBoundary(boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
+  std::vector<PoseGroup> groups = groupPoses(
+      config, model,
+      highVoteHypotheses(matchBoundary(boundary, model, config, deadline), config.min_votes_rel));
   joinClusters(distribution, static_cast<float>(dbscanRadius(config, model)), groups);
   return groups;
 }
@@ -114,8 +113,8 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
   std::vector<PoseGroup> groups =
       worthRefining(candidatePoses(config, model, distribution, clusters.size()), most, place_m);
   lap("grouping");
-  const std::vector<PoseGroup> by_boundary = worthRefining(
-      boundaryPoses(image, model, config, deadline, distribution), most, place_m);
+  const std::vector<PoseGroup> by_boundary =
+      worthRefining(boundaryPoses(image, model, config, deadline, distribution), most, place_m);
   groups.insert(groups.end(), by_boundary.begin(), by_boundary.end());
   lap("boundary voting");
 

@@ -8,8 +8,8 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr float kPlaneFacing = 0.3F;    // flatter surfaces are not extended beyond the outline
-constexpr float kLeastFacing = 0.02F;  // flatter surfaces count as this flat
-constexpr float kSlopeMargin = 1.5F;   // pixels of slope that are no step
+constexpr float kLeastFacing = 0.02F;   // flatter surfaces count as this flat
+constexpr float kSlopeMargin = 1.5F;    // pixels of slope that are no step
 constexpr int kDirectionRadius_px = 2;  // window that gives the outline's direction
 
 bool covered(const RenderedPart& view, int column, int row)
@@ -75,10 +75,10 @@ bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int colu
   if (!covered(view, next_column, next_row)) return true;
   const float fall_m = view.depthAt(next_column, next_row) - view.depthAt(column, row);
   if (fall_m < jump_m) return false;
-  const auto distance_px = static_cast<float>(
-      std::max(std::abs(next_column - column), std::abs(next_row - row)));
-  const float slope_m = std::max(slopeAt(view, camera, column, row),
-                                 slopeAt(view, camera, next_column, next_row));
+  const auto distance_px =
+      static_cast<float>(std::max(std::abs(next_column - column), std::abs(next_row - row)));
+  const float slope_m =
+      std::max(slopeAt(view, camera, column, row), slopeAt(view, camera, next_column, next_row));
   return fall_m > jump_m + kSlopeMargin * distance_px * slope_m;
 }
 

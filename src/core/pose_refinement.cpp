@@ -72,7 +72,8 @@ void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
       if (-normal.dot(ray) < kMinFacing * ray.norm()) continue;
       surface.push_back({T_model_camera * (z * ray), T_model_camera.linear() * normal});
     }
-  part.outline = outlineOf(view, camera, boundaryJump(static_cast<float>(model.diameter())), kOutlineStride);
+  part.outline =
+      outlineOf(view, camera, boundaryJump(static_cast<float>(model.diameter())), kOutlineStride);
   part.outline_points.clear();
   for (const OutlinePoint& point : part.outline)
     part.outline_points.push_back(T_model_camera * point.point);

@@ -118,10 +118,7 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
                                        const DetectorConfig& config, const Deadline& deadline)
 {
   const PpfModelData& data = model.data();
-  const Matching matching{scene,
-                          data,
-                          config,
-                          FeatureQuantizer(data.parameters, data.diameter_m),
+  const Matching matching{scene, data, config, FeatureQuantizer(data.parameters, data.diameter_m),
                           NeighborSearch(scene.points)};
   const auto references = static_cast<std::size_t>(
       std::ceil(config.reference_share * static_cast<double>(scene.size())));

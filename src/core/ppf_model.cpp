@@ -88,9 +88,9 @@ void checkBoundary(const BoundaryTable& table)
     requireThat(entry < table.points.size(),
                 "an entry of the boundary table names a point that does not exist");
   for (const BoundaryPoint& boundary : table.points)
-    requireThat(boundary.point.allFinite() && boundary.normal.allFinite() &&
-                    boundary.outward.allFinite(),
-                "a boundary point is not finite");
+    requireThat(
+        boundary.point.allFinite() && boundary.normal.allFinite() && boundary.outward.allFinite(),
+        "a boundary point is not finite");
 }
 
 /// The data as they are. @throw std::invalid_argument naming a contradiction.

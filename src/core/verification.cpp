@@ -144,8 +144,8 @@ private:
   /// The pixel as far beyond the outline as it is followed, or the last one of the image.
   std::uint32_t pixelBeyond(const OutlinePoint& point) const
   {
-    const Eigen::Vector2f at = image_.camera.project(point.point) +
-                               static_cast<float>(edge_reach_px_) * point.direction;
+    const Eigen::Vector2f at =
+        image_.camera.project(point.point) + static_cast<float>(edge_reach_px_) * point.direction;
     const int u = std::clamp(static_cast<int>(std::lround(at.x())), 0, image_.camera.width - 1);
     const int v = std::clamp(static_cast<int>(std::lround(at.y())), 0, image_.camera.height - 1);
     return static_cast<std::uint32_t>(image_.index(u, v));
@@ -167,8 +167,8 @@ void addSlideStop(const Eigen::Vector2f& outward, SlideStops& stops)
 {
   for (std::size_t i = 0; i < stops.size(); ++i)
   {
-    const auto angle = static_cast<float>(M_PI) * static_cast<float>(i) /
-                       static_cast<float>(stops.size());
+    const auto angle =
+        static_cast<float>(M_PI) * static_cast<float>(i) / static_cast<float>(stops.size());
     const float cosine = outward.dot(Eigen::Vector2f(std::cos(angle), std::sin(angle)));
     stops[i] += cosine * cosine * cosine * cosine;
   }

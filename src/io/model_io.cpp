@@ -103,7 +103,8 @@ template <class Archive, class Data, class Checksum>
 void visitContent(Archive& archive, Data& data, Checksum& mesh_checksum)
 {
   static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(SymmetryAxis) == 48 &&
-                    sizeof(DiscreteSymmetry) == 56 && sizeof(BoundaryPoint) == 36 && sizeof(int) == 4,
+                    sizeof(DiscreteSymmetry) == 56 && sizeof(BoundaryPoint) == 36 &&
+                    sizeof(int) == 4,
                 "these go into the file as they are");
   archive.number(mesh_checksum);
   archive.number(data.parameters.step_rel);

@@ -20,7 +20,7 @@ constexpr std::array<DetectionStatus, 5> kStatuses = {
     DetectionStatus::kOk, DetectionStatus::kNoPickablePose, DetectionStatus::kRoiEmpty,
     DetectionStatus::kTimeLimit, DetectionStatus::kBadCloud};
 constexpr std::array<UnreliableReason, 6> kReasons = {
-    UnreliableReason::kSpread, UnreliableReason::kSlippage, UnreliableReason::kLowScore,
+    UnreliableReason::kSpread,  UnreliableReason::kSlippage, UnreliableReason::kLowScore,
     UnreliableReason::kOverlap, UnreliableReason::kRunnerUp, UnreliableReason::kNone};
 
 /// The value whose toString() is a word.

@@ -1,5 +1,7 @@
 # Unit tests of the core, one file each; built by the catkin package and by the core alone.
 set(core_tests
+    test_ambiguity
+    test_boundary
     test_dbscan
     test_detector
     test_detector_config

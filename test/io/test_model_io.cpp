@@ -112,8 +112,8 @@ TEST_F(ModelFileTest, isRefusedIfOfAnotherVersion)
 {
   std::string other = bytes_;
   other[8] = static_cast<char>(kModelFileVersion + 1);
-  expectHolds(error(other), "has the format version " + std::to_string(kModelFileVersion + 1) + ", not " +
-                                std::to_string(kModelFileVersion));
+  expectHolds(error(other), "has the format version " + std::to_string(kModelFileVersion + 1) +
+                                ", not " + std::to_string(kModelFileVersion));
 }
 
 TEST_F(ModelFileTest, isRefusedIfCutOffOrTooLong)
@@ -175,7 +175,8 @@ TEST_F(ModelFileTest, isRefusedIfATriangleOrAnEntryPointsNowhere)
   expectHolds(error(signedAnew(bytes)), "a triangle names a vertex that does not exist");
   bytes = bytes_;
   bytes[bytes.size() - 1] = '\xff';
-  expectHolds(error(signedAnew(bytes)), "an entry of the boundary table names a point that does not exist");
+  expectHolds(error(signedAnew(bytes)),
+              "an entry of the boundary table names a point that does not exist");
 }
 
 TEST_F(ModelFileTest, isCheckedAgainstThePart)

@@ -1,5 +1,5 @@
-/// @file How easily a standing pose could be another one: where it could slide, and how far it leads
-/// over its rivals.
+/// @file How easily a standing pose could be another one: where it could slide, and how far it
+/// leads over its rivals.
 #pragma once
 
 #include "ppf_bin_picking/core/candidate_search.hpp"

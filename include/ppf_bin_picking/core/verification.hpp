@@ -48,10 +48,10 @@ struct PoseEvidence
   double outline_held = 0;       ///< Outline pixels where the measured surface ends, too.
   double outline_broken =
       0;  ///< Outline pixels beyond which the surface goes on, or where it is absent.
-  SlideStops slide_held{};             ///< Of outline_held.
-  SlideStops slide_broken{};           ///< Of outline_broken, where the surface is absent.
-  std::vector<Continuation> goes_on;   ///< The rest of outline_broken.
-  float rms_error_m = 0;  ///< Of the confirmed pixels, along their normals.
+  SlideStops slide_held{};            ///< Of outline_held.
+  SlideStops slide_broken{};          ///< Of outline_broken, where the surface is absent.
+  std::vector<Continuation> goes_on;  ///< The rest of outline_broken.
+  float rms_error_m = 0;              ///< Of the confirmed pixels, along their normals.
 
   /// Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
   double support() const
