@@ -69,12 +69,10 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
 }
 }  // namespace
 
-bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
                  int next_column, int next_row, float jump_m)
 {
-  if (!covered(view, next_column, next_row)) return true;
   const float fall_m = view.depthAt(next_column, next_row) - view.depthAt(column, row);
-  if (fall_m < jump_m) return false;
   const auto distance_px =
       static_cast<float>(std::max(std::abs(next_column - column), std::abs(next_row - row)));
   const float slope_m =

@@ -76,13 +76,16 @@ private:
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
     const float weight =
         std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
-    const float doubt = weight * std::min(1.0F, static_cast<float>(outlineDistance(column, row)) /
-                                                    static_cast<float>(ring_px_));
+    const auto doubt = [&]
+    {
+      return weight * static_cast<float>(outlineDistance(column, row)) /
+             static_cast<float>(ring_px_);
+    };
     const float z = image_.depth[index];
     ++evidence_.visible_px;
     if (z == 0)
     {
-      evidence_.missing += doubt;
+      evidence_.missing += doubt();
       return;
     }
     const float behind_m =
@@ -95,13 +98,13 @@ private:
     }
     if (behind_m > gate_m_)
     {
-      evidence_.looked_through += doubt;
+      evidence_.looked_through += doubt();
       return;
     }
     const Eigen::Vector3f& normal = image_.normals[index];
     if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
     {
-      evidence_.wrong_normal += doubt;
+      evidence_.wrong_normal += doubt();
       return;
     }
     if (!image_.in_roi[index])

@@ -24,10 +24,22 @@ struct OutlinePoint
   std::array<float, 2 * kOutlineReach_px + 1> profile_m;
 };
 
+/// True if the part is deeper at a second pixel than at a first one by more than a fall and what
+/// the slopes of both surfaces explain.
+bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+                 int next_column, int next_row, float jump_m);
+
 /// True if the surface at a pixel of a rendered part ends before another pixel nearby: the part is
 /// not there, or deeper by more than a fall and what the surfaces' slopes explain.
-bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
-                 int next_column, int next_row, float jump_m);
+inline bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
+                        int next_column, int next_row, float jump_m)
+{
+  if (next_column < 0 || next_row < 0 || next_column >= view.width || next_row >= view.height)
+    return true;
+  const float next_m = view.depthAt(next_column, next_row);
+  return next_m == 0 || (next_m - view.depthAt(column, row) >= jump_m &&
+                         isSteepFall(view, camera, column, row, next_column, next_row, jump_m));
+}
 
 /// Points of the outline of a rendered part: pixels with the part's surface on one side and, on the
 /// other, nothing or a part of it that lies deeper: rims of holes belong to the outline.
