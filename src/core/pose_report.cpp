@@ -68,10 +68,10 @@ std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const 
          percent(config.min_visible_share) + ")";
 }
 
-MismatchRegion regionOf(const DetectedPose& pose, const ClusterShare& share, const PpfModel& model,
-                        const DetectorConfig& config)
+MismatchingRegion regionOf(const DetectedPose& pose, const ClusterShare& share,
+                           const PpfModel& model, const DetectorConfig& config)
 {
-  MismatchRegion region;
+  MismatchingRegion region;
   region.model = pose.model;
   region.reason = pose.reason;
   region.box =
@@ -171,7 +171,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
                    [](const DetectedPose& a, const DetectedPose& b)
                    { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
   std::stable_sort(result.regions.begin(), result.regions.end(),
-                   [](const MismatchRegion& a, const MismatchRegion& b)
+                   [](const MismatchingRegion& a, const MismatchingRegion& b)
                    { return a.score > b.score; });
 }
 }  // namespace ppf_bin_picking

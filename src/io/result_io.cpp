@@ -48,7 +48,7 @@ json toJson(const DetectedPose& pose)
           {"evidence_balance", pose.evidence_balance}};
 }
 
-json toJson(const MismatchRegion& region)
+json toJson(const MismatchingRegion& region)
 {
   return {{"model", region.model},
           {"pose", rowMajor(region.box.T_cloud_box)},
@@ -86,9 +86,9 @@ DetectedPose poseFrom(const json& item)
   return pose;
 }
 
-MismatchRegion regionFrom(const json& item)
+MismatchingRegion regionFrom(const json& item)
 {
-  MismatchRegion region;
+  MismatchingRegion region;
   region.model = item.value("model", 0U);
   region.box.T_cloud_box = poseOf(item, "pose");
   const auto size = item.at("size").get<std::array<double, 3>>();
@@ -184,7 +184,7 @@ std::string toJson(const ResultFile& file)
     root["stages_ms"][stage.name] = stage.seconds * kMilliseconds;
   for (const DetectedPose& pose : result.poses)
     root["poses"].push_back(toJson(pose));
-  for (const MismatchRegion& region : result.regions)
+  for (const MismatchingRegion& region : result.regions)
     root["regions"].push_back(toJson(region));
   return textByLine(root);
 }

@@ -27,7 +27,7 @@ msg::PickablePose toMessage(const DetectionView& view, const ppf_bin_picking::De
 }
 
 msg::MismatchRegion toMessage(const DetectionView& view,
-                              const ppf_bin_picking::MismatchRegion& region,
+                              const ppf_bin_picking::MismatchingRegion& region,
                               const std::size_t number)
 {
   const PartView& part = *view.parts.at(region.model);
@@ -59,7 +59,7 @@ std::vector<msg::PickablePose> pickablePoses(const DetectionView& view, const st
 std::vector<msg::MismatchRegion> mismatchRegions(const DetectionView& view)
 {
   std::vector<msg::MismatchRegion> messages;
-  for (const ppf_bin_picking::MismatchRegion& region : view.result.regions)
+  for (const ppf_bin_picking::MismatchingRegion& region : view.result.regions)
     messages.push_back(toMessage(view, region, messages.size() + 1));
   return messages;
 }

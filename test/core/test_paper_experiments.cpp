@@ -105,7 +105,7 @@ TEST_F(CubeOnPlane, isFlaggedAsMismatchingRegion)
   EXPECT_TRUE(std::any_of(result.clusters.begin(), result.clusters.end(),
                           [](const HypothesisCluster& cluster) { return cluster.mismatching; }));
   ASSERT_FALSE(result.regions.empty());
-  for (const MismatchRegion& region : result.regions)
+  for (const MismatchingRegion& region : result.regions)
   {
     EXPECT_TRUE(region.reason == UnreliableReason::kSpread ||
                 region.reason == UnreliableReason::kSlippage);
@@ -120,7 +120,7 @@ TEST_F(CubeOnPlane, hasNoReliablePoseWithFewReferencePointsEither)
   const DetectionResult result = detect(config);
   EXPECT_EQ(result.status, DetectionStatus::kNoPickablePose);
   ASSERT_FALSE(result.regions.empty());
-  for (const MismatchRegion& region : result.regions)
+  for (const MismatchingRegion& region : result.regions)
     EXPECT_TRUE(region.reason == UnreliableReason::kSpread ||
                 region.reason == UnreliableReason::kSlippage);
 }
@@ -132,7 +132,7 @@ TEST_F(CubeOnPlane, isBelievedOnlyWithoutTheMismatchTest)
   config.mismatch_test = false;
   const DetectionResult result = detect(config);
   EXPECT_EQ(result.status, DetectionStatus::kOk);
-  for (const MismatchRegion& region : result.regions)
+  for (const MismatchingRegion& region : result.regions)
     EXPECT_EQ(region.reason, UnreliableReason::kLowScore);
 }
 
@@ -189,7 +189,7 @@ TEST_P(BracketOnPlane, isTheOnlyReliablePoseWithTheTableInTheRegion)
                           [](const DetectedPose& pose) { return pose.reliable; }),
             1);
   expectRight(result.poses.front().T_cloud_model);
-  for (const MismatchRegion& region : result.regions)
+  for (const MismatchingRegion& region : result.regions)
     EXPECT_GT((region.T_cloud_best.translation() - truth_.translation()).norm(),
               0.3 * model_.diameter());
 }

@@ -34,7 +34,7 @@ ResultFile example()
   pose.reliable = false;
   pose.reason = UnreliableReason::kSpread;
   result.poses.push_back(pose);
-  MismatchRegion region;
+  MismatchingRegion region;
   region.reason = UnreliableReason::kSpread;
   region.box.T_cloud_box = pose.T_cloud_model;
   region.box.size = {0.3, 0.2, 0.1};

@@ -64,6 +64,7 @@ TEST(MismatchRegion, hasTheReasonsOfTheCore)
   EXPECT_EQ(static_cast<int>(UnreliableReason::kSlippage), msg::MismatchRegion::SLIPPAGE);
   EXPECT_EQ(static_cast<int>(UnreliableReason::kLowScore), msg::MismatchRegion::LOW_SCORE);
   EXPECT_EQ(static_cast<int>(UnreliableReason::kOverlap), msg::MismatchRegion::OVERLAP);
+  EXPECT_EQ(static_cast<int>(UnreliableReason::kRunnerUp), msg::MismatchRegion::RUNNER_UP);
 }
 
 TEST(ToPoseArray, holdsThePickablePoses)

@@ -86,7 +86,7 @@ struct DetectedPose
 };
 
 /// Where poses cannot be told apart, or why one was turned down; drawn in red.
-struct MismatchRegion
+struct MismatchingRegion
 {
   std::uint32_t model = 0;
   UnreliableReason reason = UnreliableReason::kSpread;
@@ -108,9 +108,9 @@ struct StageTime
 struct DetectionResult
 {
   DetectionStatus status = DetectionStatus::kNoPickablePose;
-  std::string message;                  ///< One sentence a person can act on.
-  std::vector<DetectedPose> poses;      ///< Reliable ones first; best first in both parts.
-  std::vector<MismatchRegion> regions;  ///< Best score first.
+  std::string message;                     ///< One sentence a person can act on.
+  std::vector<DetectedPose> poses;         ///< Reliable ones first; best first in both parts.
+  std::vector<MismatchingRegion> regions;  ///< Best score first.
   std::vector<PoseHypothesis>
       distribution;  ///< The probable pose distribution: all high-vote hypotheses.
   std::vector<HypothesisCluster> clusters;
