@@ -59,7 +59,7 @@ struct DetectorConfig
   bool mismatch_test = true;      ///< Mark poses that spread or slide as unreliable.
   double max_spread_rel = 1.5;    ///< Largest sum of a cluster's box sides. > 0.
   double max_slide_share = 0.75;  ///< Largest share of open outline against a slide. [0, 1].
-  double min_margin = 0.1;        ///< Least lead over the best other pose there. [-1, 1].
+  double min_margin = 0.2;        ///< Least lead over the best other pose there. [-1, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;        ///< Poses that are refined and verified at most. >= 1.
