@@ -66,19 +66,19 @@ bool frameAt(const RangeImage& image, int u, int v, const Eigen::Vector2f& away,
   if (std::abs(image.depth[inside] - image.depth[image.index(u, v)]) > jump_m) return false;
   const Eigen::Vector3f on_plane = image.point(u_inside, v_inside);
   const Eigen::Vector2f at(static_cast<float>(u), static_cast<float>(v));
-  const auto onPlane = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector3f
+  const auto point_at = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector3f
   {
     const Eigen::Vector3f ray = image.camera.ray(pixel.x(), pixel.y());
     return ray * (normal.dot(on_plane) / normal.dot(ray));
   };
   const Eigen::Vector3f ray = image.camera.ray(at.x(), at.y());
   if (-normal.dot(ray) < kMinFacing * ray.norm()) return false;
-  boundary.point = onPlane(at + 0.5F * away);
+  boundary.point = point_at(at + 0.5F * away);
   const Eigen::Vector3f along =
-      (onPlane(at + Eigen::Vector2f(-away.y(), away.x())) - onPlane(at)).normalized();
+      (point_at(at + Eigen::Vector2f(-away.y(), away.x())) - point_at(at)).normalized();
   boundary.normal = normal;
   boundary.outward = along.cross(normal);
-  if (boundary.outward.dot(onPlane(at + away) - onPlane(at)) < 0)
+  if (boundary.outward.dot(point_at(at + away) - point_at(at)) < 0)
     boundary.outward = -boundary.outward;
   return boundary.point.allFinite() && boundary.outward.allFinite();
 }
