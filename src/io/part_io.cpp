@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string>
 
 namespace ppf_bin_picking
 {
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr double kUnitTolerance = 1e-3;
+constexpr int kMaxTurns = 120;               // turns of a discrete symmetry until the part is back
+constexpr double kTurnTolerance_deg = 0.01;  // of the angle: 51.43 is a seventh
 constexpr std::size_t kMaxManifestBytes = 1 << 20;
 
 Eigen::Vector3d vectorOf(const YamlMap& map, const std::string& key)
@@ -32,6 +35,21 @@ SymmetryAxis readAxis(const YamlMap& map, double metres_per_unit)
   line.axis.normalize();
   if (map.has("point")) line.point = vectorOf(map, "point") * metres_per_unit;
   return line;
+}
+
+/// The angle of a discrete symmetry [rad]: the fraction k / n of the full turn, n up to kMaxTurns,
+/// that the file's decimals mean.
+double readTurn(const YamlMap& map)
+{
+  const double angle_deg = map.number("angle_deg");
+  for (int n = 2; n <= kMaxTurns; ++n)
+  {
+    const double k = std::round(angle_deg * n / 360.0);
+    if (std::abs(angle_deg - k * 360.0 / n) < kTurnTolerance_deg) return k * 2 * M_PI / n;
+  }
+  throw InputError(map.where() + ": angle_deg is " + plainDecimal(angle_deg) +
+                   ", which no number of turns up to " + std::to_string(kMaxTurns) +
+                   " brings back: give 360 divided by the number of like positions");
 }
 
 Pick readPick(const YamlMap& map, double metres_per_unit)
@@ -89,8 +107,7 @@ void readSymmetries(const YamlMap& map, PartDescription& part)
 {
   const double scale = metres(part.unit);
   for (const YamlMap& item : map.maps("symmetries_discrete", {"axis", "angle_deg", "point"}))
-    part.symmetries_discrete.push_back(
-        {readAxis(item, scale), item.number("angle_deg") * M_PI / 180.0});
+    part.symmetries_discrete.push_back({readAxis(item, scale), readTurn(item)});
   for (const YamlMap& item : map.maps("symmetries_continuous", {"axis", "point"}))
     part.symmetries_continuous.push_back(readAxis(item, scale));
   try

@@ -62,6 +62,16 @@ TEST_F(PartFile, convertsLengthsAndAngles)
                   .isApprox(Eigen::Vector3d(0.01, 0.01, -0.02), 1e-6));
 }
 
+TEST_F(PartFile, takesAnAngleForTheFractionOfATurnThatItsDecimalsMean)
+{
+  const PartDescription part = load(
+      "unit: mm\n"
+      "symmetries_discrete: [{axis: [0, 0, 1], angle_deg: 51.43}, "
+      "{axis: [0, 0, 1], angle_deg: 240}]\n");
+  EXPECT_NEAR(part.symmetries_discrete[0].angle_rad, 2 * M_PI / 7, 1e-12);
+  EXPECT_NEAR(part.symmetries_discrete[1].angle_rad, 4 * M_PI / 3, 1e-12);
+}
+
 TEST_F(PartFile, namesWhatIsWrong)
 {
   expectHolds(error("mesh: a.stl\n"), "unit is missing, and a mesh file does not know its own");
@@ -69,7 +79,12 @@ TEST_F(PartFile, namesWhatIsWrong)
   expectHolds(error("unti: mm\n"), "unknown key 'unti': the nearest known name is 'unit'");
   expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 0], angle_deg: 90}]\n"),
               "symmetries_discrete[0]: axis has no length");
-  expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: 77.7}]\n"),
+  for (const std::string angle : {"77", "77.7", "0.5"})
+    expectHolds(
+        error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: " + angle + "}]\n"),
+        "symmetries_discrete[0]: angle_deg is " + angle + ", which no number of turns");
+  expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: 180}, "
+                    "{axis: [1, 0, 0.1], angle_deg: 90}]\n"),
               "the discrete symmetries have no end");
   expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1]}]\n"),
               "angle_deg is missing");
