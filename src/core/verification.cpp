@@ -76,10 +76,11 @@ private:
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
     const float weight =
         std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
+    // Near the outline sensors mix what lies before and behind, so contradictions weigh less there.
     const auto doubt = [&]
     {
-      return weight * static_cast<float>(outlineDistance(column, row)) /
-             static_cast<float>(ring_px_);
+      const int distance_px = outlineDistance(view_, image_.camera, column, row, jump_m_, ring_px_);
+      return weight * static_cast<float>(distance_px) / static_cast<float>(ring_px_);
     };
     const float z = image_.depth[index];
     ++evidence_.visible_px;
@@ -115,17 +116,6 @@ private:
     evidence_.confirmed.push_back({static_cast<std::uint32_t>(index), weight});
     evidence_.confirmed_weight += weight;
     squared_error_ += behind_m * behind_m;
-  }
-
-  /// Pixels to the part's outline along rows and columns, at most the ring's width. There sensors
-  /// mix what lies before and behind, so contradictions weigh less.
-  int outlineDistance(int column, int row) const
-  {
-    for (int k = 1; k <= ring_px_; ++k)
-      for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-        if (surfaceEnds(view_, image_.camera, column, row, column + k * du, row + k * dv, jump_m_))
-          return k - 1;
-    return ring_px_;
   }
 
   /// Follows the measured surface across the outline.

@@ -1,7 +1,9 @@
 #include "pose_check.hpp"
 
+#include "ppf_bin_picking/core/boundary_table.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/neighbor_search.hpp"
+#include "ppf_bin_picking/core/outline.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
@@ -17,7 +19,9 @@ constexpr float kGateRel = 0.03F;            // of the diameter
 constexpr float kSurfaceSpacingRel = 0.01F;  // of the diameter
 constexpr float kInsideRel = 0.02F;  // depth under the other's surface that counts as inside
 constexpr std::size_t kOverlapSamples = 800;
-constexpr float kMinFacing = 0.3F;             // surfaces flatter to the line of sight are left out
+constexpr float kMinFacing = 0.3F;  // surfaces flatter to the line of sight are left out
+constexpr float kRingRel =
+    0.05F;  // of the diameter: sensors lose and smear surfaces so near to their outline
 constexpr double kSameOrientation_rad = 0.35;  // refitting goes that far
 constexpr double kMaxLookedThrough = 0.1;
 constexpr double kMaxOverlap = 0.05;
@@ -92,9 +96,12 @@ std::vector<NearSymmetry> nearSymmetries(const PpfModel& model)
 struct PoseChecker::Fit
 {
   Eigen::Isometry3f T_camera_model;
-  double sum_squared = 0;  ///< Of visible surface points to the cloud [m^2].
-  std::size_t count = 0;   ///< Of these.
-  std::size_t looked_through = 0;
+  double sum_squared = 0;          ///< Of visible surface points to the cloud [m^2].
+  std::size_t count = 0;           ///< Of these.
+  double found_squared = 0;        ///< Of those of them that the cloud does not lie behind [m^2].
+  std::size_t found = 0;           ///< Of these.
+  std::size_t inner = 0;           ///< Of the visible points, those away from the outline.
+  std::size_t looked_through = 0;  ///< Of the inner ones.
   std::vector<std::uint32_t> claimed;  ///< Pixels it covers whose point is near its surface.
 };
 
@@ -129,6 +136,11 @@ PoseChecker::Fit PoseChecker::fitOf(const Eigen::Isometry3f& pose) const
   Fit fit;
   fit.T_camera_model = pose;
   const Eigen::Isometry3f T_model_camera = pose.inverse(Eigen::Isometry);
+  const auto diameter = static_cast<float>(model_.diameter());
+  const float depth_m = (pose * model_.data().center).z();
+  const int ring_px =
+      std::max(1, static_cast<int>(kRingRel * diameter * image_.camera.fx / depth_m));
+  const float jump_m = boundaryJump(diameter);
   RenderedPart view;
   renderPart(model_.renderable(), pose, image_.camera, view);
   std::vector<std::pair<std::uint32_t, float>> nearest;
@@ -149,9 +161,15 @@ PoseChecker::Fit PoseChecker::fitOf(const Eigen::Isometry3f& pose) const
       const Eigen::Vector3f& normal = view.normals[view.triangle[pixel]];
       if (std::abs(normal.dot(ray)) < kMinFacing * ray.norm()) continue;
       scene_search_->nearest(z * ray, 1, nearest);
-      fit.sum_squared += std::min(nearest.front().second, gate_m_ * gate_m_);
+      const bool behind = measured > z + gate_m_;
+      const float squared = std::min(nearest.front().second, gate_m_ * gate_m_);
+      fit.sum_squared += squared;
       ++fit.count;
-      if (measured > z + gate_m_) ++fit.looked_through;
+      fit.found_squared += behind ? 0 : squared;
+      fit.found += behind ? 0 : 1;
+      if (outlineDistance(view, image_.camera, column, row, jump_m, ring_px) < ring_px) continue;
+      ++fit.inner;
+      fit.looked_through += behind ? 1 : 0;
     }
   }
   return fit;
@@ -221,7 +239,9 @@ std::vector<PoseCheck> PoseChecker::check(const std::vector<Eigen::Isometry3f>& 
     std::sort(claimed.begin(), claimed.end());
     claimed.erase(std::unique(claimed.begin(), claimed.end()), claimed.end());
 
-    check.rmse_m = bothWays(fits[0], {});
+    check.rmse_m = fits[0].found == 0
+                       ? gate_m_
+                       : std::sqrt(fits[0].found_squared / static_cast<double>(fits[0].found));
     check.both_ways_m = bothWays(fits[0], claimed);
     for (std::size_t k = 1; k < fits.size(); ++k)
     {
@@ -230,9 +250,9 @@ std::vector<PoseCheck> PoseChecker::check(const std::vector<Eigen::Isometry3f>& 
       check.turned_m = turned;
       check.turn = near_symmetries_[k - 1].name;
     }
-    check.looked_through = fits[0].count == 0 ? 1.0
+    check.looked_through = fits[0].inner == 0 ? 1.0
                                               : static_cast<double>(fits[0].looked_through) /
-                                                    static_cast<double>(fits[0].count);
+                                                    static_cast<double>(fits[0].inner);
     for (std::size_t k = 0; k < poses.size(); ++k)
     {
       const double overlap = k == i ? 0.0 : overlapOf(poses[i], poses[k]);

@@ -30,14 +30,16 @@ std::vector<NearSymmetry> nearSymmetries(const PpfModel& model);
 /// How one pose fits. Distances count up to a gate, so that neighbouring parts do not matter.
 struct PoseCheck
 {
-  double rmse_m = 0;       ///< Of the visible surface against the cloud.
+  double rmse_m = 0;  ///< Of the visible surface against the cloud, where that does not lie behind.
   double both_ways_m = 0;  ///< RMSE with the cloud in front of the part against its surface, too.
   double turned_m = -1;    ///< The same for the best near-symmetry, after refitting; -1: none.
   std::string turn;        ///< Its name.
-  double looked_through = 0;  ///< Share of the unhidden surface that the cloud lies behind.
-  double overlap = 0;         ///< Share of the surface inside another pose's part.
-  int overlap_with = -1;      ///< That pose in the list; -1: none.
-  std::string verdict;        ///< `ok`, or what is suspicious.
+  /// Share of the visible surface that the cloud lies behind, without a ring along the outline of
+  /// 0.05 diameters, where sensors lose and smear surfaces.
+  double looked_through = 0;
+  double overlap = 0;     ///< Share of the surface inside another pose's part.
+  int overlap_with = -1;  ///< That pose in the list; -1: none.
+  std::string verdict;    ///< `ok`, or what is suspicious.
 };
 
 /// Compares poses of one part with one depth image.

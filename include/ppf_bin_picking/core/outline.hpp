@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -39,6 +40,19 @@ inline bool surfaceEnds(const RenderedPart& view, const PinholeCamera& camera, i
   const float next_m = view.depthAt(next_column, next_row);
   return next_m == 0 || (next_m - view.depthAt(column, row) >= jump_m &&
                          isSteepFall(view, camera, column, row, next_column, next_row, jump_m));
+}
+
+/// Pixels from a pixel of a rendered part to the part's outline, along rows and columns: 0 on it.
+/// @param jump_m    Least fall within the part.
+/// @param reach_px  The answer where the outline is as far or farther.
+inline int outlineDistance(const RenderedPart& view, const PinholeCamera& camera, int column,
+                           int row, float jump_m, int reach_px)
+{
+  for (int k = 1; k <= reach_px; ++k)
+    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (surfaceEnds(view, camera, column, row, column + k * du, row + k * dv, jump_m))
+        return k - 1;
+  return reach_px;
 }
 
 /// Points of the outline of a rendered part: pixels with the part's surface on one side and, on the
