@@ -23,7 +23,7 @@ constexpr float kMinFacing = 0.3F;  // surfaces flatter to the line of sight are
 constexpr float kRingRel =
     0.05F;  // of the diameter: sensors lose and smear surfaces so near to their outline
 constexpr double kSameOrientation_rad = 0.35;  // refitting goes that far
-constexpr double kMaxLookedThrough = 0.1;
+constexpr double kMaxLookedThrough = 0.15;
 constexpr double kMaxOverlap = 0.05;
 constexpr double kMaxRmseRel = 0.5;  // of the gate
 
