@@ -1,10 +1,20 @@
 #!/usr/bin/python3
 """Makes the meshes of this folder: binary STL, millimetres, closed, wound outwards.
 
-Run it in any folder to write the files there. Each part is a signed distance function (negative
-inside), turned into triangles by surface nets, or a profile turned about the z axis.
+Run it in any folder to write the files there; names of parts as arguments make these alone. A part
+is a signed distance function (negative inside), turned into triangles by surface nets, a profile
+turned about the z axis, or a solid that OpenSCAD makes of the .scad file beside this script.
 """
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
 import numpy as np
+import yaml
+
+FOLDER = Path(__file__).resolve().parent
+SYMMETRY_TOLERANCE = 0.05  # a turn that maps the part onto itself may be off by so much
 
 
 def length(x, y):
@@ -139,33 +149,126 @@ def lathe(profile, segments=48):
     return np.array(triangles, dtype=float)
 
 
+def solid(name):
+    """Triangles of the solid that OpenSCAD makes of a .scad file of this folder, in a fixed order."""
+    with tempfile.TemporaryDirectory() as folder:
+        off = Path(folder) / "solid.off"
+        subprocess.run(["openscad", "--quiet", "-o", off, FOLDER / f"{name}.scad"], check=True)
+        numbers = off.read_text().split()
+    vertex_count, face_count = int(numbers[1]), int(numbers[2])
+    end = 4 + 3 * vertex_count
+    vertices = np.array(numbers[4:end], dtype=float).reshape(-1, 3)
+    faces = np.array(numbers[end : end + 4 * face_count], dtype=int).reshape(-1, 4)
+    if (faces[:, 0] != 3).any():
+        raise RuntimeError(f"{name}: a face is no triangle")
+    corners = np.sort(faces[:, 1:], axis=1)
+    whole = (np.diff(corners, axis=1) > 0).all(axis=1)  # a turned profile has others on its axis
+    triangles = vertices[faces[whole, 1:]] + 0.0  # no negative zeros
+    return triangles[np.lexsort(triangles.reshape(-1, 9).T)]
+
+
+def volume(triangles):
+    """Negative if the triangles are wound inwards."""
+    return np.linalg.det(triangles).sum() / 6
+
+
 def check(triangles):
-    """Each edge is used exactly once in each direction: closed and wound alike."""
+    """Each edge is used exactly once in each direction: closed and wound alike. No triangle is
+    without area."""
+    longest = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)
+    area = np.linalg.norm(np.cross(*np.moveaxis(triangles[:, 1:] - triangles[:, :1], 1, 0)), axis=1)
+    if (area < 1e-4 * longest).any():
+        raise RuntimeError("a triangle has no area")
     _, index = np.unique(triangles.astype("<f4").reshape(-1, 3), axis=0, return_inverse=True)
     corner = index.reshape(-1, 3)
     edges = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]], corner[:, [2, 0]]])
     unique = np.unique(edges, axis=0)
     if len(unique) != len(edges) or len(np.unique(np.sort(edges), axis=0)) * 2 != len(edges):
-        raise RuntimeError("the surface is not closed: change the step of the grid")
-    if np.einsum("ij,ij->i", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])).sum() < 0:
+        raise RuntimeError("the surface is not closed, or touches itself")
+    if volume(triangles) <= 0:
         raise RuntimeError("the surface is wound inwards: turn the triangles around")
+
+
+def spread(triangles, count):
+    """Points spread evenly over the surface, the same at each call."""
+    area = np.linalg.norm(np.cross(*np.moveaxis(triangles[:, 1:] - triangles[:, :1], 1, 0)), axis=1)
+    random = np.random.default_rng(1)
+    corners = triangles[random.choice(len(triangles), count, p=area / area.sum())]
+    weights = random.dirichlet((1, 1, 1), count)
+    return np.einsum("nk,nkj->nj", weights, corners)
+
+
+def to_segment(point, start, end):
+    """Distances of a point to line segments."""
+    along = end - start
+    share = np.einsum("ij,ij->i", point - start, along) / np.einsum("ij,ij->i", along, along)
+    return np.linalg.norm(start + np.clip(share, 0, 1)[:, None] * along - point, axis=1)
+
+
+def distance_to(triangles, point):
+    """Distance of a point to the surface: to each triangle's plane where the point lies above the
+    triangle, and to each edge."""
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    above = np.ones(len(a), bool)
+    for start, end in ((a, b), (b, c), (c, a)):
+        above &= np.einsum("ij,ij->i", np.cross(normal, end - start), point - start) >= 0
+    height = np.abs(np.einsum("ij,ij->i", normal, point - a))
+    edges = [to_segment(point, *ends).min() for ends in ((a, b), (b, c), (c, a))]
+    return min(height[above].min(initial=np.inf), *edges)
+
+
+def turned(points, symmetry, angle):
+    """Points turned about a symmetry's line."""
+    axis = np.array(symmetry["axis"], float) / np.linalg.norm(symmetry["axis"])
+    rest = points - np.array(symmetry.get("point", (0, 0, 0)), float)
+    along = np.outer(rest @ axis, axis)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return points + (cosine - 1) * (rest - along) + sine * np.cross(axis, rest)
+
+
+def check_symmetries(name, triangles):
+    """The turns that the part file names map the surface onto itself. Returns the largest error."""
+    part = yaml.safe_load((FOLDER.parent / f"config/parts/{name}.yaml").read_text())
+    turns = [(s, np.radians(s["angle_deg"])) for s in part.get("symmetries_discrete", [])]
+    turns += [(s, angle) for s in part.get("symmetries_continuous", []) for angle in (0.4, 1, 2.5)]
+    points = spread(triangles, 1000)
+    worst = 0
+    for symmetry, angle in turns:
+        moved = turned(points, symmetry, angle)
+        error = max(distance_to(triangles, point) for point in moved)
+        if error > SYMMETRY_TOLERANCE:
+            raise RuntimeError(f"{name}: a turn about {symmetry} is off by {error:.3f} mm")
+        worst = max(worst, error)
+    return worst
 
 
 def write_stl(name, triangles):
     check(triangles)
+    error = check_symmetries(name, triangles)
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     record = np.zeros(len(triangles), dtype=[("numbers", "<f4", (4, 3)), ("attribute", "<u2")])
     record["numbers"] = np.concatenate([normals[:, None], triangles], axis=1)
-    with open(name, "wb") as file:
+    with open(f"{name}.stl", "wb") as file:
         file.write(b"made by make_meshes.py, unit mm".ljust(80, b" "))
         file.write(np.uint32(len(triangles)).tobytes())
         file.write(record.tobytes())
     size = np.ptp(triangles.reshape(-1, 3), axis=0)
-    print(f"{name}: {len(triangles)} triangles, {size.round(1)} mm")
+    print(
+        f"{name}: {len(triangles)} triangles, {size.round(1)} mm, {volume(triangles):.0f} mm^3, ",
+        end="",
+    )
+    print(f"symmetric to {error:.3f} mm")
 
+
+OWN = {
+    "bracket": lambda: surface_nets(bracket, (-40, -24, -4), (40, 24, 58), 2),
+    "tee": lambda: surface_nets(tee, (-34, -16, -16), (34, 16, 34), 2),
+    "bolt": lambda: lathe(BOLT_PROFILE),
+}
 
 if __name__ == "__main__":
-    write_stl("bracket.stl", surface_nets(bracket, (-40, -24, -4), (40, 24, 58), 2))
-    write_stl("tee.stl", surface_nets(tee, (-34, -16, -16), (34, 16, 34), 2))
-    write_stl("bolt.stl", lathe(BOLT_PROFILE))
+    for part in sys.argv[1:] or [*OWN, *sorted(path.stem for path in FOLDER.glob("*.scad"))]:
+        write_stl(part, OWN[part]() if part in OWN else solid(part))

@@ -63,7 +63,8 @@ class Part:
         self.corners = corners * scale
         self.center = (self.corners.min(axis=0) + self.corners.max(axis=0)) / 2
         self.diameter = 2 * np.linalg.norm(self.corners - self.center, axis=1).max()
-        self.motions = self._motions(part, scale)
+        self.is_ball = len(part.get("symmetries_continuous", [])) > 1
+        self.motions = [] if self.is_ball else self._motions(part, scale)
 
     @staticmethod
     def _motions(part, scale):
@@ -86,7 +87,10 @@ class Part:
 
     def error(self, pose, truth):
         """Of the symmetric truth that fits best: greatest error of a point of the part [m], error
-        of its centre [m], turn [deg]."""
+        of its centre [m], turn [deg]. A ball has no turn."""
+        if self.is_ball:
+            center = np.linalg.norm((pose - truth) @ np.append(self.center, 1))
+            return center, center, 0.0
         best = (np.inf, 0, 0)
         for motion in self.motions:
             change = np.linalg.inv(truth @ motion) @ pose

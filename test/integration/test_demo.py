@@ -27,11 +27,26 @@ def turned(model, axis, angle_deg):
 
 class DemoTest(unittest.TestCase):
     def test_sees_no_error_in_symmetric_turns(self):
-        for name, axis, angle_deg in [("tee", [0, 0, 1], 180), ("bolt", [0, 0, 1], 77)]:
+        for name, axis, angle_deg in [
+            ("tee", [0, 0, 1], 180),
+            ("bolt", [0, 0, 1], 77),
+            ("gear", [0, 0, 1], 45),
+            ("gear", [1, 0, 0], 180),
+        ]:
             surface, center, turn = turned(part(name), axis, angle_deg)
             self.assertLess(surface, 1e-6, name)
             self.assertLess(center, 1e-6, name)
             self.assertLess(turn, 1e-3, name)
+
+    def test_looks_at_the_centre_of_a_ball_alone(self):
+        ball = part("sphere")
+        surface, center, turn = turned(ball, [1, 2, 3], 50)
+        self.assertLess(surface, 5e-5)  # its facets
+        self.assertEqual(surface, center)
+        self.assertEqual(turn, 0)
+        pose = np.eye(4)
+        pose[1, 3] = 0.003
+        self.assertAlmostEqual(ball.error(pose, np.eye(4))[0], 0.003)
 
     def test_sees_other_turns(self):
         for name, axis in [("bracket", [0, 0, 1]), ("tee", [1, 0, 0]), ("bolt", [1, 0, 0])]:

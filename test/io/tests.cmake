@@ -9,5 +9,6 @@ set(io_tests
     test_model_io
     test_part_io
     test_result_io
+    test_shipped_parts
     test_yaml_map)
 set(io_data_tests test_mesh_io_data)
