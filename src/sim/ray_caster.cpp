@@ -8,6 +8,23 @@
 
 namespace ppf_bin_picking
 {
+namespace
+{
+RTCRay ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float reach)
+{
+  RTCRay ray = {};
+  ray.org_x = origin.x();
+  ray.org_y = origin.y();
+  ray.org_z = origin.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tfar = reach;
+  ray.mask = ~0U;
+  return ray;
+}
+}  // namespace
+
 struct RayCaster::Scene
 {
   RTCDevice device = rtcNewDevice(nullptr);
@@ -71,19 +88,21 @@ std::optional<RayHit> RayCaster::cast(const Eigen::Vector3f& origin,
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query = {};
-  query.ray.org_x = origin.x();
-  query.ray.org_y = origin.y();
-  query.ray.org_z = origin.z();
-  query.ray.dir_x = direction.x();
-  query.ray.dir_y = direction.y();
-  query.ray.dir_z = direction.z();
-  query.ray.tfar = std::numeric_limits<float>::infinity();
-  query.ray.mask = ~0U;
+  query.ray = ray(origin, direction, std::numeric_limits<float>::infinity());
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
   return RayHit{query.ray.tfar, query.hit.geomID, normal.normalized()};
+}
+
+bool RayCaster::blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const
+{
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay query = ray(from, to - from, 1);
+  rtcOccluded1(scene_->scene, &context, &query);
+  return query.tfar < 0;  // Embree's way to say so
 }
 }  // namespace ppf_bin_picking

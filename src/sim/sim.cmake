@@ -8,7 +8,8 @@ endif()
 
 set(sim_dir "${CMAKE_CURRENT_LIST_DIR}")
 add_library(
-  ${PROJECT_NAME}_sim ${sim_dir}/bin_filling.cpp ${sim_dir}/depth_camera.cpp ${sim_dir}/random.cpp
-                      ${sim_dir}/ray_caster.cpp ${sim_dir}/simulated_cell.cpp)
+  ${PROJECT_NAME}_sim
+  ${sim_dir}/bin_filling.cpp ${sim_dir}/depth_camera.cpp ${sim_dir}/depth_sensor.cpp
+  ${sim_dir}/random.cpp ${sim_dir}/ray_caster.cpp ${sim_dir}/simulated_cell.cpp)
 target_include_directories(${PROJECT_NAME}_sim PRIVATE ${embree_include_dir})
 target_link_libraries(${PROJECT_NAME}_sim PUBLIC ${PROJECT_NAME}_core PRIVATE ${embree_library})

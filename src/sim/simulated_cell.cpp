@@ -17,8 +17,9 @@ CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, in
   const RayCaster world(meshes);
   CellShot shot;
   shot.T_base_camera = lookAt(settings.camera_position_m, settings.camera_target_m);
-  shot.view = takeShot(world, settings.camera, shot.T_base_camera, settings.noise, seed);
-  shot.parts = partTruths(shot.view, settings.camera, shot.T_base_camera, part, T_base_parts, 1);
+  shot.view = takeShot(world, settings.sensor, shot.T_base_camera, seed);
+  shot.parts =
+      partTruths(shot.view, settings.sensor.camera, shot.T_base_camera, part, T_base_parts, 1);
   return shot;
 }
 }  // namespace ppf_bin_picking

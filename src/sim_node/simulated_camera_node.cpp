@@ -7,6 +7,8 @@
 #include "ppf_bin_picking/ros/params.hpp"
 #include "ppf_bin_picking/sim/simulated_cell.hpp"
 
+#include "sensor_params.hpp"
+
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/ros.h>
@@ -58,12 +60,6 @@ public:
                      ": give a value from " + ppf_bin_picking::plainDecimal(low) + " to " +
                      ppf_bin_picking::plainDecimal(high));
   }
-  void number(const std::string& key, double low, double high, float& value) const
-  {
-    double wide = value;
-    number(key, low, high, wide);
-    value = static_cast<float>(wide);
-  }
   void integer(const std::string& key, int low, int high, int& value) const
   {
     if (!map_.has(key)) return;
@@ -101,14 +97,6 @@ void readCamera(const YamlMap& map, CellSettings& cell)
   const Reader reader(map);
   reader.vector("position_m", cell.camera_position_m);
   reader.vector("target_m", cell.camera_target_m);
-  reader.integer("width", 1, 10000, cell.camera.width);
-  reader.integer("height", 2, 10000, cell.camera.height);
-  reader.number("fx", 1, 100000, cell.camera.fx);
-  reader.number("fy", 1, 100000, cell.camera.fy);
-  reader.number("cx", -100000, 100000, cell.camera.cx);
-  reader.number("cy", -100000, 100000, cell.camera.cy);
-  reader.number("noise_std_m", 0, 1, cell.noise.std_m);
-  reader.number("max_slant_rad", 0, 1.5708, cell.noise.max_slant_rad);
 }
 
 /// @throw InputError naming the parameter and the remedy.
@@ -118,7 +106,7 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
   private_nh.getParam("", tree);
   const YamlMap map(toYaml(tree), private_nh.getNamespace(),
                     {"part", "count", "seed", "rate_hz", "base_frame", "bin_frame", "camera_frame",
-                     "bin", "camera"});
+                     "bin", "camera", "sensor"});
   CameraParams params;
   params.part = map.text("part");
   const Reader reader(map);
@@ -129,10 +117,9 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
   reader.text("bin_frame", params.bin_frame);
   reader.text("camera_frame", params.camera_frame);
   if (map.has("bin")) readBin(map.map("bin", {"size_m", "wall_m", "position_m"}), params.cell);
-  if (map.has("camera"))
-    readCamera(map.map("camera", {"position_m", "target_m", "width", "height", "fx", "fy", "cx",
-                                  "cy", "noise_std_m", "max_slant_rad"}),
-               params.cell);
+  if (map.has("camera")) readCamera(map.map("camera", {"position_m", "target_m"}), params.cell);
+  if (map.has("sensor"))
+    params.cell.sensor = readDepthSensor(map.map("sensor", ppf_bin_picking::depthSensorKeys()));
   return params;
 }
 

@@ -1,31 +1,25 @@
+#include "ppf_bin_picking/sim/bin_filling.hpp"
 #include "ppf_bin_picking/sim/depth_camera.hpp"
-#include "ppf_bin_picking/sim/simulated_cell.hpp"
 
+#include "support/depth_shots.hpp"
 #include "support/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr DepthNoise kPerfect{0, M_PI_2};
-
-/// A quarter of the default image.
-PinholeCamera smallCamera()
-{
-  return {320, 240, 560, 560, 159.5, 119.5};
-}
-
 TEST(TakeShot, seesAPlaneWhereItIs)
 {
   const TriangleMesh plane = squareMesh(1);
   const RayCaster world({{&plane, Eigen::Isometry3d::Identity()}});
   const Eigen::Isometry3d T_world_camera = lookAt({0.1, -0.2, 0.7}, {0, 0.05, 0});
-  const DepthView view = takeShot(world, smallCamera(), T_world_camera, kPerfect, 1);
+  const DepthView view = takeShot(world, smallSensor(), T_world_camera, 1);
   ASSERT_EQ(view.cloud_camera.size(), 320U * 240U);
   EXPECT_TRUE(view.cloud_camera.organised());
   for (const Eigen::Vector3f& p_camera : view.cloud_camera.points)
@@ -37,24 +31,35 @@ TEST(TakeShot, seesAPlaneWhereItIs)
   EXPECT_GT(view.cloud_camera.points[middle + 1].x(), view.cloud_camera.points[middle].x());
 }
 
+TEST(TakeShot, seesASlantedPlaneAsTheFormulaSays)
+{
+  const DepthSensor sensor = smallSensor();
+  const Plate plate{0.8, 1.2};
+  const DepthView view = plate.shot(sensor);
+  for (int row = 0; row < 240; ++row)
+    for (int column = 0; column < 320; column += 7)
+      ASSERT_NEAR(depthAt(view, column, row), plate.depth(sensor.camera, row), 2e-6);
+}
+
 TEST(TakeShot, seesASphereAsTheFormulaSays)
 {
   const double radius = 0.05;
   const TriangleMesh sphere = sphereMesh(static_cast<float>(radius));
   const RayCaster world({{&sphere, Eigen::Isometry3d::Identity()}});
-  const PinholeCamera camera = smallCamera();
+  const DepthSensor sensor = smallSensor();
   const Eigen::Vector3d position(0, -0.1, 0.5);
-  const DepthView view = takeShot(world, camera, lookAt(position, {0, 0, 0}), kPerfect, 1);
+  const DepthView view = takeShot(world, sensor, lookAt(position, {0, 0, 0}), 1);
   const double distance = position.norm();
   int hits = 0;
-  for (int row = 0; row < camera.height; ++row)
-    for (int column = 0; column < camera.width; ++column)
+  for (int row = 0; row < sensor.camera.height; ++row)
+    for (int column = 0; column < sensor.camera.width; ++column)
     {
-      const Eigen::Vector3d ray = camera.ray(static_cast<float>(column), static_cast<float>(row))
-                                      .cast<double>()
-                                      .normalized();
+      const Eigen::Vector3d ray =
+          sensor.camera.ray(static_cast<float>(column), static_cast<float>(row))
+              .cast<double>()
+              .normalized();
       const double aside = distance * std::hypot(ray.x(), ray.y());
-      const Eigen::Vector3f& point = view.cloud_camera.points[row * camera.width + column];
+      const Eigen::Vector3f& point = view.cloud_camera.points[row * sensor.camera.width + column];
       if (aside > radius)
       {
         ASSERT_FALSE(point.allFinite());
@@ -67,38 +72,6 @@ TEST(TakeShot, seesASphereAsTheFormulaSays)
   EXPECT_GT(hits, 5000);
 }
 
-TEST(TakeShot, hasTheNoiseAskedFor)
-{
-  const TriangleMesh plane = squareMesh(1);
-  const RayCaster world({{&plane, Eigen::Isometry3d::Identity()}});
-  const DepthView view =
-      takeShot(world, smallCamera(), lookAt({0, 0, 0.6}, {0, 0, 0}), {0.0005, 1.4}, 3);
-  double sum = 0;
-  double squares = 0;
-  for (const Eigen::Vector3f& point : view.cloud_camera.points)
-  {
-    sum += point.z() - 0.6;
-    squares += (point.z() - 0.6) * (point.z() - 0.6);
-  }
-  const double count = static_cast<double>(view.cloud_camera.size());
-  EXPECT_NEAR(sum / count, 0, 1e-5);
-  EXPECT_NEAR(std::sqrt(squares / count), 0.0005, 1e-5);
-}
-
-TEST(TakeShot, missesWhatIsSeenAtAFlatAngle)
-{
-  const TriangleMesh plane = squareMesh(1);
-  const RayCaster world({{&plane, Eigen::Isometry3d::Identity()}});
-  const Eigen::Isometry3d T_world_camera = lookAt({0, -0.6, 0.3}, {0, 0, 0});
-  const PinholeCamera camera = smallCamera();
-  const double limit_rad = std::acos(0.3 / std::hypot(0.6, 0.3));
-  const DepthView view = takeShot(world, camera, T_world_camera, {0, limit_rad}, 1);
-  EXPECT_FALSE(view.cloud_camera.points[10 * 320 + 160].allFinite());  // far, flat
-  EXPECT_TRUE(view.cloud_camera.points[230 * 320 + 160].allFinite());  // near, steep
-  EXPECT_EQ(view.object[10 * 320 + 160], 0);
-  EXPECT_GT(view.brightness[230 * 320 + 160], view.brightness[10 * 320 + 160]);
-}
-
 TEST(TakeShot, givesTheSameBytesForAnyNumberOfThreads)
 {
   const TriangleMesh bin = binMesh({});
@@ -106,31 +79,65 @@ TEST(TakeShot, givesTheSameBytesForAnyNumberOfThreads)
   std::vector<PlacedMesh> meshes = {{&bin, Eigen::Isometry3d::Identity()}};
   for (const auto& pose : fillBin({}, part, 8, 5))
     meshes.push_back({&part, pose});
-  const auto shoot = [&](int threads, std::uint32_t seed)
+  const auto shoot = [&](const std::string& preset, int threads, std::uint32_t seed)
   {
     const RayCaster world(meshes);
-    return takeShot(world, smallCamera(), lookAt({0, -0.1, 0.7}, {0, 0, 0}), {}, seed, threads);
+    DepthSensor sensor = sensorPreset(preset);
+    sensor.camera = smallSensor().camera;
+    return takeShot(world, sensor, lookAt({0, -0.1, 0.7}, {0, 0, 0}), seed, threads);
   };
   const auto same = [](const DepthView& a, const DepthView& b)
   {
     return std::memcmp(a.cloud_camera.points.data(), b.cloud_camera.points.data(),
-                       a.cloud_camera.size() * sizeof(Eigen::Vector3f)) == 0;
+                       a.cloud_camera.size() * sizeof(Eigen::Vector3f)) == 0 &&
+           a.object == b.object && a.brightness == b.brightness;
   };
-  const DepthView one = shoot(1, 7);
-  EXPECT_TRUE(same(one, shoot(2, 7)));
-  EXPECT_TRUE(same(one, shoot(4, 7)));
-  EXPECT_FALSE(same(one, shoot(1, 8)));
+  for (const std::string preset : {"industrial", "low_cost"})
+  {
+    const DepthView one = shoot(preset, 1, 7);
+    EXPECT_TRUE(same(one, shoot(preset, 1, 7)));
+    EXPECT_TRUE(same(one, shoot(preset, 2, 7)));
+    EXPECT_TRUE(same(one, shoot(preset, 4, 7)));
+    EXPECT_FALSE(same(one, shoot(preset, 1, 8)));
+  }
+  EXPECT_TRUE(same(shoot("clean", 1, 7), shoot("clean", 2, 8)));  // nothing left to chance
 }
 
-TEST(TakeShot, refusesACameraWithoutImage)
+TEST(TakeShot, refusesASensorOutOfRange)
 {
   const TriangleMesh plane = squareMesh(1);
   const RayCaster world({{&plane, Eigen::Isometry3d::Identity()}});
-  PinholeCamera camera = smallCamera();
-  camera.fx = 0;
-  EXPECT_THROW(takeShot(world, camera, Eigen::Isometry3d::Identity(), {}, 1),
-               std::invalid_argument);
+  DepthSensor sensor = smallSensor();
+  sensor.camera.fx = 0;
+  sensor.noise_at_1m_m = std::nan("");
+  try
+  {
+    takeShot(world, sensor, Eigen::Isometry3d::Identity(), 1);
+    FAIL();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "the depth sensor's fx is 0: give a value from 1 to 100000; noise_at_1m_m is nan: "
+                 "give a value from 0 to 1");
+  }
   EXPECT_THROW(lookAt({1, 0, 0}, {0, 0, 0}), std::invalid_argument);
+}
+
+TEST(SensorPreset, knowsItsNames)
+{
+  for (const std::string& name : sensorPresetNames())
+    EXPECT_TRUE(sensorPreset(name).problems().empty()) << name;
+  try
+  {
+    sensorPreset("industry");
+    FAIL();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "there is no sensor preset 'industry': give one of clean, industrial, low_cost");
+  }
 }
 
 TEST(PartTruths, tellsWhatIsSeenOfAPart)
@@ -147,48 +154,23 @@ TEST(PartTruths, tellsWhatIsSeenOfAPart)
                          {&part, T_world_part[1]},
                          {&part, T_world_part[2]}});
   const Eigen::Isometry3d T_world_camera = lookAt({0, 0, 0.6}, {0, 0, 0});
-  const PinholeCamera camera = smallCamera();
-  const DepthView view = takeShot(world, camera, T_world_camera, kPerfect, 1);
-  const auto truths = partTruths(view, camera, T_world_camera, part, T_world_part, 1);
+  DepthSensor sensor = smallSensor();
+  const DepthView view = takeShot(world, sensor, T_world_camera, 1);
+  const auto truths = partTruths(view, sensor.camera, T_world_camera, part, T_world_part, 1);
   ASSERT_EQ(truths.size(), 3U);
   EXPECT_GT(truths[0].visible_share, 0.999);
   EXPECT_GT(truths[1].visible_share, 0.4);
   EXPECT_LT(truths[1].visible_share, 0.6);
   EXPECT_GT(truths[2].visible_share, 0.999);  // of what the image can show
-}
-
-TEST(SimulateCell, putsThePartsWhereTheTruthSays)
-{
-  CellSettings settings;
-  settings.noise = kPerfect;
-  const TriangleMesh part = angleMesh();
-  const CellShot shot = simulateCell(settings, part, 6, 9);
-  ASSERT_EQ(shot.parts.size(), 6U);
-  const RayCaster alone({{&part, Eigen::Isometry3d::Identity()}});
-  int on_parts = 0;
-  int above_floor = 0;
-  for (const Eigen::Vector3f& point : shot.view.cloud_camera.points)
-  {
-    const Eigen::Vector3d p_camera = point.cast<double>();
-    const Eigen::Vector3d p_bin = shot.T_base_camera * p_camera - settings.bin_position_m;
-    const Eigen::Vector3d inside = settings.bin.size_m / 2 - p_bin.cwiseAbs();
-    if (!(inside.x() > 1e-4 && inside.y() > 1e-4 && p_bin.z() > 1e-4)) continue;  // bin, or NaN
-    ++above_floor;
-    for (const PartTruth& truth : shot.parts)
-    {
-      const Eigen::Isometry3d T_model_camera = truth.T_camera_model.inverse();
-      const Eigen::Vector3d away = T_model_camera.linear() * p_camera.normalized();
-      const Eigen::Vector3d start = T_model_camera * p_camera - 0.001 * away;
-      const auto hit = alone.cast(start.cast<float>(), away.cast<float>());
-      if (!hit || std::abs(hit->distance_m - 0.001) > 1e-5) continue;
-      ++on_parts;
-      break;
-    }
-  }
-  EXPECT_GT(above_floor, 10000);
-  EXPECT_EQ(on_parts, above_floor);
-  for (const PartTruth& truth : shot.parts)
-    EXPECT_GT(truth.visible_share, 0.2);
+  // Whatever the sensor misses, the truth is the same.
+  sensor.baseline_m = 0.3;
+  sensor.dropout_share = 0.9;
+  sensor.glare_rad = 0.5;
+  const DepthView poor = takeShot(world, sensor, T_world_camera, 1);
+  EXPECT_LT(measured(poor), measured(view) / 9);
+  const auto same = partTruths(poor, sensor.camera, T_world_camera, part, T_world_part, 1);
+  for (std::size_t k = 0; k < truths.size(); ++k)
+    EXPECT_EQ(same[k].visible_share, truths[k].visible_share);
 }
 }  // namespace
 }  // namespace ppf_bin_picking

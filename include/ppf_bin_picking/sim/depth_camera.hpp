@@ -1,9 +1,9 @@
 /// @file A simulated depth camera and the truth about what it sees.
 #pragma once
 
-#include "ppf_bin_picking/core/pinhole_camera.hpp"
 #include "ppf_bin_picking/core/point_cloud.hpp"
 
+#include "ppf_bin_picking/sim/depth_sensor.hpp"
 #include "ppf_bin_picking/sim/ray_caster.hpp"
 
 #include <Eigen/Geometry>
@@ -13,18 +13,11 @@
 
 namespace ppf_bin_picking
 {
-/// What the measurement lacks.
-struct DepthNoise
-{
-  double std_m = 0.0002;       ///< Standard deviation of the depth (z). >= 0.
-  double max_slant_rad = 1.4;  ///< Surfaces seen at a flatter angle give no measurement.
-};
-
 /// One shot.
 struct DepthView
 {
   PointCloud cloud_camera;           ///< Organised; NaN where nothing was measured.
-  std::vector<std::int32_t> object;  ///< Mesh seen by each pixel, measured or not; -1: none.
+  std::vector<std::int32_t> object;  ///< Mesh before each pixel, measured or not; -1: none.
   std::vector<float> brightness;     ///< Of each pixel, lit from the camera; to look at. [0, 1]
 };
 
@@ -32,7 +25,10 @@ struct DepthView
 struct PartTruth
 {
   Eigen::Isometry3d T_camera_model = Eigen::Isometry3d::Identity();  ///< [m]
-  double visible_share = 0;  ///< Pixels that show it, of those that would if it were alone. [0, 1]
+  /// Pixels that the part is before, of those that it would be before if it were alone. In [0, 1].
+  /// It is the truth about what hides the part: shadows and other faults of the sensor do not
+  /// count.
+  double visible_share = 0;
 };
 
 /// Optical frame of a camera that looks from a position at a target. Image right is as close to
@@ -40,12 +36,12 @@ struct PartTruth
 /// @return T_world_camera. @throw std::invalid_argument if it would look along x.
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& position, const Eigen::Vector3d& target);
 
-/// Takes a shot. The same seed gives the same bytes for any number of threads.
+/// Takes a shot. Each pixel's ray, and with it its x / z and y / z, is exact; faults change the
+/// depth or lose it. The same seed gives the same bytes for any number of threads.
 /// @param threads  0: one per core.
-/// @throw std::invalid_argument if the camera's numbers are out of range.
-DepthView takeShot(const RayCaster& world, const PinholeCamera& camera,
-                   const Eigen::Isometry3d& T_world_camera, const DepthNoise& noise,
-                   std::uint32_t seed, int threads = 0);
+/// @throw std::invalid_argument if the sensor has problems(), all of them named.
+DepthView takeShot(const RayCaster& world, const DepthSensor& sensor,
+                   const Eigen::Isometry3d& T_world_camera, std::uint32_t seed, int threads = 0);
 
 /// Poses and visible shares of the parts of a shot.
 /// @param part          Mesh of each part.

@@ -41,6 +41,10 @@ public:
   /// @param direction  World frame, unit length.
   std::optional<RayHit> cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 
+  /// Whether a surface lies between two points. Ends that lie on a surface may count as such.
+  /// @param from, to  World frame [m].
+  bool blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const;
+
 private:
   struct Scene;
   std::unique_ptr<Scene> scene_;

@@ -17,11 +17,10 @@ namespace ppf_bin_picking
 struct CellSettings
 {
   Bin bin;
-  Eigen::Vector3d bin_position_m = {0.5, 0, 0};  ///< Of the middle of the bin's floor.
-  Eigen::Vector3d camera_position_m = {0.5, -0.12, 0.75};
-  Eigen::Vector3d camera_target_m = {0.5, 0, 0.02};  ///< In the middle of the image.
-  PinholeCamera camera = {640, 480, 1120, 1120, 319.5F, 239.5F};
-  DepthNoise noise;
+  Eigen::Vector3d bin_position_m = {0.5, 0, 0};             ///< Of the middle of the bin's floor.
+  Eigen::Vector3d camera_position_m = {0.37, -0.12, 0.75};  ///< The projector is on the other side.
+  Eigen::Vector3d camera_target_m = {0.5, 0, 0.02};         ///< In the middle of the image.
+  DepthSensor sensor = sensorPreset("industrial");
 };
 
 /// What the camera saw, and the truth about it.
@@ -34,7 +33,7 @@ struct CellShot
 
 /// Fills the bin and takes a shot. The same arguments give the same bytes.
 /// @param part  A closed mesh, wound outwards.
-/// @throw std::invalid_argument if the part does not fit into the bin, or the camera has no image.
+/// @throw std::invalid_argument if the part does not fit into the bin, or the sensor has problems.
 CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, int count,
                       std::uint32_t seed);
 }  // namespace ppf_bin_picking
