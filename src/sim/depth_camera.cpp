@@ -61,13 +61,10 @@ void light(const Shot& shot, const Eigen::Vector3d& point, const Eigen::Vector3d
   const Eigen::Vector3d projector(sensor.baseline_m, 0, 0);
   const Eigen::Vector3d to_camera = -point.normalized();
   const Eigen::Vector3d to_projector = (projector - point).normalized();
-  sight.lit = normal.dot(to_projector) >= 0;
-  if (sight.lit && sensor.baseline_m != 0)
-  {
-    const Eigen::Vector3d start = point + kLift_m * normal;
-    sight.lit = !shot.world.blocked((shot.T_world_camera * start).cast<float>(),
-                                    (shot.T_world_camera * projector).cast<float>());
-  }
+  const Eigen::Vector3d start = point + kLift_m * normal;
+  sight.lit = sensor.baseline_m == 0 ||
+              !shot.world.blocked((shot.T_world_camera * start).cast<float>(),
+                                  (shot.T_world_camera * projector).cast<float>());
   const auto angle = [&](const Eigen::Vector3d& direction)
   { return std::atan2(normal.cross(direction).norm(), normal.dot(direction)); };
   sight.measured = sight.lit && angle(to_camera) <= sensor.max_slant_rad &&

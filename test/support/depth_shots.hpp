@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -70,4 +72,21 @@ inline float depthAt(const DepthView& view, int column, int row)
   return view.cloud_camera.points[static_cast<std::size_t>(row) * view.cloud_camera.width + column]
       .z();
 }
+
+/// Mean and standard deviation.
+struct Spread
+{
+  double mean = 0;
+  double std = 0;
+  int count = 0;
+
+  explicit Spread(const std::vector<double>& values) : count(static_cast<int>(values.size()))
+  {
+    for (const double value : values)
+      mean += value / count;
+    for (const double value : values)
+      std += (value - mean) * (value - mean) / count;
+    std = std::sqrt(std);
+  }
+};
 }  // namespace ppf_bin_picking
