@@ -7,11 +7,11 @@ namespace ppf_bin_picking
 {
 namespace
 {
-/// After the data sheet of the Photoneo PhoXi 3D Scanner M (458 to 1118 mm, best at 650 mm):
-/// baseline 270 mm, "temporal noise" of 0.1 mm (one standard deviation, on a matt surface). Its
-/// camera and projector are turned by 11.75 degrees each, which also gives 2 * 650 mm *
-/// tan(11.75 deg) = 270 mm. The noise at 1 m is 0.1 mm / 0.65^2. No source was found for the rest:
-/// chosen so that pictures look like scans of such devices.
+/// With the figures given for the Photoneo PhoXi 3D Scanner M, best at 650 mm: baseline 270 mm and
+/// a "temporal noise" of 0.1 mm (one standard deviation, on a matt surface). Its camera and
+/// projector are turned by 11.75 degrees each, which agrees: 2 * 650 mm * tan(11.75 deg) = 270 mm.
+/// The noise at 1 m is 0.1 mm / 0.65^2. The rest has no source: chosen so that pictures look like
+/// scans of such devices.
 DepthSensor industrial()
 {
   DepthSensor sensor;
@@ -27,12 +27,12 @@ DepthSensor industrial()
   return sensor;
 }
 
-/// After the Intel RealSense D415: baseline 55 mm, 65 degrees across 1280 pixels, of which this is
-/// the middle: f = 640 / tan(32.5 deg) = 1005 px; depth in steps of 1 mm. Intel's white paper
-/// "Tuning depth cameras for best performance" gives the noise z^2 s / (f b) with the error s of
-/// the disparity, typically 0.08 px: 1.45 mm at 1 m. The lateral noise of 0.8 px is that of a
-/// Kinect (Nguyen, Izadi, Lovell: Modeling Kinect Sensor Noise, 2012), which matches windows of a
-/// pattern just so. No source was found for the rest, as above.
+/// With the figures given for the Intel RealSense D415: baseline 55 mm, 65 degrees across 1280
+/// pixels, of which this is the middle: f = 640 / tan(32.5 deg) = 1005 px; depth in steps of 1 mm.
+/// The noise is that of triangulation, z^2 s / (f b), with an error s of the disparity of 0.08 px,
+/// as often assumed for these cameras: 1.45 mm at 1 m. The lateral noise of 0.8 px is that of a
+/// Kinect, which matches windows of a pattern, too (Nguyen, Izadi, Lovell: Modeling Kinect Sensor
+/// Noise, 2012). The rest has no source, as above.
 DepthSensor lowCost()
 {
   DepthSensor sensor;

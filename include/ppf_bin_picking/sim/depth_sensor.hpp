@@ -87,7 +87,7 @@ std::vector<std::string> sensorPresetNames();
 /// - `clean`: no faults.
 /// - `industrial`: a structured-light scanner for 0.5 to 1 m.
 /// - `low_cost`: an active stereo camera.
-/// The source names where each number is from.
+/// docs/simulator.md tells where the numbers are from.
 /// @throw std::invalid_argument naming the known names.
 DepthSensor sensorPreset(const std::string& name);
 }  // namespace ppf_bin_picking
