@@ -166,7 +166,7 @@ DetectionResult Detector::detect(const PointCloud& cloud_camera,
   lap("verification");
   const std::vector<SelectedPose> selected =
       selectCandidates(candidates, prepared.image.depth.size());
-  reportPoses(models, config_, candidates, selected, prepared.image.depth.size(), result);
+  reportPoses(models, config_, candidates, selected, prepared.image, result);
   lap("selection");
   setStatus(result, deadline.passed(), config_.time_limit_s);
   result.seconds = clock.total();

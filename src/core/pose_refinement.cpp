@@ -2,6 +2,7 @@
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
+#include "ppf_bin_picking/core/pose_information.hpp"
 
 #include <Eigen/Dense>
 
@@ -24,13 +25,9 @@ constexpr float kOutlineGates =
 constexpr float kFirstGateRel = 0.10F;  // of the diameter
 constexpr float kMinNormalCosine = 0.7F;
 constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out
-constexpr float kLeverRel = 0.35F;       // length that makes rotations comparable to translations
 constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction is not held
 constexpr float kConvergedRel = 1e-5F;   // step, relative to the diameter
 constexpr float kPriorShare = 1e-3F;
-
-using Vector6f = Eigen::Matrix<float, 6, 1>;
-using Matrix6f = Eigen::Matrix<float, 6, 6>;
 
 /// A point of the part's visible surface, mesh frame.
 struct SurfacePoint
@@ -77,17 +74,6 @@ void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
   part.outline_points.clear();
   for (const OutlinePoint& point : part.outline)
     part.outline_points.push_back(T_model_camera * point.point);
-}
-
-/// Change of a point's coordinate along a direction with a turn (scaled by the lever) and a shift.
-Vector6f jacobianOf(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction)
-{
-  Vector6f jacobian;
-  jacobian << arm.y() * direction.z() - arm.z() * direction.y(),
-      arm.z() * direction.x() - arm.x() * direction.z(),
-      arm.x() * direction.y() - arm.y() * direction.x(), direction.x(), direction.y(),
-      direction.z();
-  return jacobian;
 }
 
 /// The weighted normal equations of one step, about the part's centre.
@@ -138,7 +124,7 @@ NormalEquations equationsOf(const RangeImage& image, const std::vector<SurfacePo
     if (std::abs(share) >= 1) continue;
     const float tukey = (1 - share * share) * (1 - share * share);
     const Eigen::Vector3f arm = (p - center) / lever_m;
-    equations.add(jacobianOf(arm, normal), residual, tukey);
+    equations.add(motionJacobian(arm, normal), residual, tukey);
   }
   return equations;
 }
@@ -158,7 +144,7 @@ void addOutline(const RangeImage& image, const VisiblePart& part,
     const float weight = match.end == OutlineEnd::kBehind ? kOutlineWeight : kShadowWeight;
     const Eigen::Vector3f direction(part.outline[i].direction.x(), part.outline[i].direction.y(),
                                     0);
-    equations.add(jacobianOf((p - center) / lever_m, direction),
+    equations.add(motionJacobian((p - center) / lever_m, direction),
                   static_cast<float>(match.offset_px) * p.z() / image.camera.fx, weight * tukey);
   }
 }

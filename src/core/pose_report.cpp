@@ -2,7 +2,9 @@
 
 #include "ppf_bin_picking/core/ambiguity.hpp"
 #include "ppf_bin_picking/core/mismatch.hpp"
+#include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
+#include "ppf_bin_picking/core/pose_information.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -100,6 +102,23 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, doubl
   return pose;
 }
 
+/// How firmly each standing pose is held.
+std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                           const DetectorConfig& config, const std::vector<Candidate>& candidates,
+                           const std::vector<SelectedPose>& selected)
+{
+  std::vector<float> holds(selected.size());
+  const auto hold = [&](std::size_t i)
+  {
+    const Candidate& pose = candidates[selected[i].candidate];
+    const PpfModel& model = *models[pose.model];
+    holds[i] = gatherInformation(image, model, pose.T_camera_model, config)
+                   .hold(model, pose.T_camera_model);
+  };
+  parallelFor(config.threads, selected.size(), hold);
+  return holds;
+}
+
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
@@ -132,7 +151,7 @@ std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candida
 
 void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                  const std::vector<Candidate>& candidates,
-                 const std::vector<SelectedPose>& selected, std::size_t pixels,
+                 const std::vector<SelectedPose>& selected, const RangeImage& image,
                  DetectionResult& result)
 {
   std::vector<Eigen::Vector3f> centers;
@@ -147,13 +166,15 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   }
   const std::vector<ClusterShare> shares = shareClusters(result.distribution, centers, clusters);
   const std::vector<Ambiguity> ambiguities =
-      assessAmbiguity(models, config, candidates, selected, pixels);
+      assessAmbiguity(models, config, candidates, selected, image.depth.size());
+  const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
     DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
     pose.slide_share = ambiguities[i].slide_share;
     pose.margin = ambiguities[i].margin;
+    pose.hold = holds[i];
     const PpfModel& model = *models[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
@@ -161,6 +182,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       const HypothesisCluster& cluster = result.clusters[static_cast<std::size_t>(pose.cluster)];
       share = {cluster.box, cluster.hypotheses};
     }
+    pose.spread = sideSum(share.box) / model.diameter();
     pose.reason = reasonOf(pose, share, model, config);
     pose.reliable = pose.reason == UnreliableReason::kNone;
     if (!pose.reliable) result.regions.push_back(regionOf(pose, share, model, config));

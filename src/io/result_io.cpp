@@ -43,6 +43,8 @@ json toJson(const DetectedPose& pose)
           {"visible_fraction", pose.visible_fraction},
           {"rms_error", pose.rms_error_m},
           {"slide_share", pose.slide_share},
+          {"hold", pose.hold},
+          {"spread", pose.spread},
           {"margin", pose.margin},
           {"support", pose.support},
           {"evidence_balance", pose.evidence_balance}};
@@ -81,6 +83,8 @@ DetectedPose poseFrom(const json& item)
   pose.rms_error_m = item.value("rms_error", 0.0);
   pose.slide_share = item.value("slide_share", 0.0);
   pose.margin = item.value("margin", 1.0);
+  pose.hold = item.value("hold", 0.0);
+  pose.spread = item.value("spread", 0.0);
   pose.support = item.value("support", 0.0);
   pose.evidence_balance = item.value("evidence_balance", 0.0);
   return pose;

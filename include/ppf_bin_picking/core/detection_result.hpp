@@ -76,7 +76,10 @@ struct DetectedPose
   double rms_error_m = 0;  ///< Of the confirmed points, along their normals [m].
   double support = 0;  ///< Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
   double slide_share =
-      0;              ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
+      0;  ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
+  double hold =
+      0;  ///< How firmly surfaces and edges hold the worst motion; see pose_information.hpp.
+  double spread = 0;  ///< Sum of the sides of its hypotheses' box, in diameters.
   double margin = 1;  ///< Lead over the best rival, relative to its pixels. At most 1.
   double evidence_balance =
       0;  ///< Evidence for the pose less that against it, in pixels confirming it. At most 1.

@@ -15,9 +15,8 @@ std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candida
 
 /// Writes the standing candidates as poses, reliable ones first, and a region for every one that is
 /// not, with its reason. Mismatching clusters without a pose become regions, too.
-/// @param pixels  Of the image.
 void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                  const std::vector<Candidate>& candidates,
-                 const std::vector<SelectedPose>& selected, std::size_t pixels,
+                 const std::vector<SelectedPose>& selected, const RangeImage& image,
                  DetectionResult& result);
 }  // namespace ppf_bin_picking
