@@ -11,6 +11,7 @@ set(core_tests
     test_parallel
     test_pca
     test_pose_clustering
+    test_pose_errors
     test_ppf
     test_ppf_matcher
     test_ppf_model
