@@ -15,4 +15,5 @@ set(core_tests
     test_ppf
     test_ppf_matcher
     test_ppf_model
+    test_surface_discrepancy
     test_symmetry)
