@@ -12,6 +12,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
