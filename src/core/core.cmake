@@ -27,6 +27,7 @@ add_library(
   ${core_dir}/pca.cpp
   ${core_dir}/points_image.cpp
   ${core_dir}/pose_clustering.cpp
+  ${core_dir}/pose_errors.cpp
   ${core_dir}/pose_information.cpp
   ${core_dir}/pose_refinement.cpp
   ${core_dir}/pose_report.cpp
@@ -35,6 +36,7 @@ add_library(
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
   ${core_dir}/selection.cpp
+  ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp
   ${core_dir}/verification.cpp

@@ -13,8 +13,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 namespace ppf_bin_picking
 {
@@ -153,6 +155,21 @@ LoadedMesh loadMesh(const std::string& path, LengthUnit unit)
     warn(oddity);
   loaded.mesh = std::move(clean.mesh);
   return loaded;
+}
+
+std::vector<Eigen::Vector3d> loadVertices(const std::string& path, LengthUnit unit)
+{
+  std::set<std::array<double, 3>> distinct;
+  for (const Eigen::Vector3f& vertex : imported(readMeshFile(path), path).vertices)
+  {
+    const Eigen::Vector3d v = vertex.cast<double>() + Eigen::Vector3d::Zero();  // -0 becomes 0
+    if (v.allFinite()) distinct.insert({v.x(), v.y(), v.z()});
+  }
+  if (distinct.empty()) throw InputError(noSurface(path, "no vertex"));
+  std::vector<Eigen::Vector3d> vertices;
+  for (const std::array<double, 3>& v : distinct)
+    vertices.push_back(metres(unit) * Eigen::Vector3d(v.data()));
+  return vertices;
 }
 
 std::uint32_t meshChecksum(const TriangleMesh& mesh)

@@ -11,7 +11,9 @@ set(core_tests
     test_parallel
     test_pca
     test_pose_clustering
+    test_pose_errors
     test_ppf
     test_ppf_matcher
     test_ppf_model
+    test_surface_discrepancy
     test_symmetry)

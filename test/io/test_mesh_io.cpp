@@ -191,6 +191,22 @@ TEST_F(MeshFile, isRefusedIfPlyIsDamaged)
   expectError("solid\n", "does not begin with 'ply'");
 }
 
+TEST_F(MeshFile, givesItsVerticesInOrderAndDoublePrecision)
+{
+  const float next = std::nextafter(1.0F, 2.0F);  // equal to 1 after rounding to metres
+  std::vector<Facet> facets = tetrahedron();
+  facets.push_back({{next, 0, 0}, {1, 0, -0.0F}, {0, 1, 0}});
+  const std::string path = folder_.write("t.stl", binaryStl(facets, 5));
+  const std::vector<Eigen::Vector3d> vertices = loadVertices(path, LengthUnit::kMillimetre);
+  const std::vector<Eigen::Vector3d> expected = {
+      {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {next, 0, 0}};
+  ASSERT_EQ(vertices.size(), expected.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    EXPECT_EQ(vertices[i], 0.001 * expected[i]);
+  const std::string damaged = folder_.write("d.stl", binaryStl(facets, 5).substr(0, 60));
+  expectHolds(inputError([&] { loadVertices(damaged, LengthUnit::kMetre); }), "d.stl ");
+}
+
 TEST_F(MeshFile, neverDoesMoreThanThrowAnInputError)
 {
   std::mt19937 rng(11);

@@ -1,18 +1,14 @@
 #include "ppf_bin_picking/io/result_io.hpp"
 
 #include "support/files.hpp"
+#include "support/program.hpp"
 #include "support/small_png.hpp"
 #include "support/stl_text.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-
-extern char** environ;
 
 namespace ppf_bin_picking
 {
@@ -21,52 +17,18 @@ namespace
 constexpr int kBadInput = 2;
 const char* const kPart = "unit: m\ndetector: {step_rel: 0.1}\n";
 
-/// How a program ended and what it printed.
-struct Outcome
-{
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
 class CommandLine : public testing::Test
 {
 protected:
-  /// Runs a tool that stands beside this test.
-  Outcome run(const std::string& tool, std::vector<std::string> arguments) const
+  Outcome run(const std::string& tool, const std::vector<std::string>& arguments) const
   {
-    const auto here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-    arguments.insert(arguments.begin(), (here / tool).string());
-    std::vector<char*> argv;
-    for (std::string& argument : arguments)
-      argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    const int flags = O_CREAT | O_WRONLY | O_TRUNC;
-    const std::string out = folder_.file("stdout");
-    const std::string err = folder_.file("stderr");
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
-    pid_t child = 0;
-    const int error = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) throw std::runtime_error("cannot run " + arguments[0]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out), contentOf(err)};
+    return runBuiltTool(tool, arguments, folder_);
   }
 
-  /// Expects exit status 2 and one line on stderr that names the tool and holds a text.
   void expectRefused(const std::string& tool, const std::vector<std::string>& arguments,
                      const std::string& part) const
   {
-    SCOPED_TRACE(tool + " " + part);
-    const Outcome outcome = run(tool, arguments);
-    EXPECT_EQ(outcome.status, kBadInput);
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.find(tool + ": "), 0U) << outcome.err;
-    expectHolds(outcome.err, part);
+    expectRefusal(run(tool, arguments), tool, part);
     EXPECT_FALSE(std::filesystem::exists(result_));
   }
 

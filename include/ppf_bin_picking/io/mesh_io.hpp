@@ -24,6 +24,12 @@ struct LoadedMesh
 ///        and the surface that is left is not closed.
 LoadedMesh loadMesh(const std::string& path, LengthUnit unit);
 
+/// The distinct finite vertices of a mesh file, by x, then y, then z, without rounding to single
+/// precision metres: what poses are judged by.
+/// @param unit  Of the file's coordinates; the vertices are in metres.
+/// @throw InputError naming the file, if it cannot be read or holds no vertex.
+std::vector<Eigen::Vector3d> loadVertices(const std::string& path, LengthUnit unit);
+
 /// CRC-32 of vertices [m] and triangles: another mesh, or the same in another unit, gives another.
 std::uint32_t meshChecksum(const TriangleMesh& mesh);
 }  // namespace ppf_bin_picking
