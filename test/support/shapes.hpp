@@ -66,6 +66,27 @@ inline TriangleMesh boxMesh(const Eigen::Vector3f& size_m)
   return mesh;
 }
 
+/// A prism of many sides along z, closed.
+inline TriangleMesh cylinderMesh(float radius_m, float height_m, std::uint32_t sides)
+{
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, -height_m / 2}, {0, 0, height_m / 2}};
+  for (std::uint32_t k = 0; k < sides; ++k)
+  {
+    const auto angle_rad =
+        2 * static_cast<float>(M_PI) * static_cast<float>(k) / static_cast<float>(sides);
+    const float x = radius_m * std::cos(angle_rad), y = radius_m * std::sin(angle_rad);
+    mesh.vertices.emplace_back(x, y, -height_m / 2);
+    mesh.vertices.emplace_back(x, y, height_m / 2);
+    const std::uint32_t low = 2 + 2 * k, next = 2 + 2 * ((k + 1) % sides);
+    mesh.triangles.push_back({low, next, next + 1});
+    mesh.triangles.push_back({low, next + 1, low + 1});
+    mesh.triangles.push_back({0, next, low});
+    mesh.triangles.push_back({1, low + 1, next + 1});
+  }
+  return mesh;
+}
+
 /// Two boxes at right angles, closed and asymmetric: an L with legs of 60 and 40 mm.
 inline TriangleMesh angleMesh()
 {
