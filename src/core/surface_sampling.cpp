@@ -91,6 +91,10 @@ void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
       const float tolerance = diameter * kDepthToleranceRel * (1 + slant);
       const float seen = view.depthAt(column, row);
       if (seen == 0 || p.z() > seen + tolerance) continue;
+      const std::uint32_t shown =
+          view.triangle[static_cast<std::size_t>(row) * view.width + column];
+      const float same = view.normals[shown].dot(view.normals[sample.triangle]);
+      if (std::abs(same) < kSameDirection) continue;  // a surface beside it, at an edge
       ++(cosine > 0 ? sample.seen_front : sample.seen_back);
     }
   }

@@ -17,4 +17,5 @@ set(core_tests
     test_ppf_matcher
     test_ppf_model
     test_surface_discrepancy
+    test_surface_sampling
     test_symmetry)
