@@ -120,8 +120,7 @@ float meshDiameter(const TriangleMesh& mesh)
   if (mesh.vertices.size() <= kDirections) extremes = mesh.vertices;
   for (int i = 0; i < kDirections && mesh.vertices.size() > kDirections; ++i)
   {
-    const Eigen::Vector3f direction =
-        evenDirection(i % kViews, kViews) + 0.1F * evenDirection((7 * i) % kViews, kViews);
+    const Eigen::Vector3f direction = evenDirection(i, kDirections);
     const auto farther = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
     { return a.dot(direction) < b.dot(direction); };
     extremes.push_back(*std::max_element(mesh.vertices.begin(), mesh.vertices.end(), farther));

@@ -37,6 +37,16 @@ TriangleMesh carelesslyWound(TriangleMesh mesh)
   return mesh;
 }
 
+/// The largest distance between two of many vertices [m].
+float slowDiameter(const TriangleMesh& mesh)
+{
+  float largest = 0;
+  for (const Eigen::Vector3f& a : mesh.vertices)
+    for (const Eigen::Vector3f& b : mesh.vertices)
+      largest = std::max(largest, (a - b).norm());
+  return largest;
+}
+
 TEST(SampleVisibleSurface, givesEachFaceOfABoxItsShareOfTheSamples)
 {
   const Eigen::Vector3f size_m(0.06F, 0.04F, 0.03F);
@@ -181,6 +191,24 @@ TEST(SampleVisibleSurface, givesNoNormalsInwardsBecauseAMeshHasACrack)
   const OrientedPoints cloud = sampleVisibleSurface(cracked, kSpacing_m);
   for (std::size_t i = 0; i < cloud.size(); ++i)
     EXPECT_GT(cloud.normals[i].dot(cloud.points[i]), 0);
+}
+
+TEST(MeshDiameter, isTheLargestDistanceOfTwoVertices)
+{
+  std::mt19937 rng(4);
+  for (const std::size_t vertices : {0U, 1U, 2U, 50U, 1500U, 4000U})
+    for (const float flatness : {1.0F, 0.3F, 0.02F})
+    {
+      SCOPED_TRACE(::testing::Message() << vertices << " " << flatness);
+      TriangleMesh mesh;
+      for (std::size_t i = 0; i < vertices; ++i)
+        mesh.vertices.push_back(
+            randomDirection(rng).cwiseProduct(Eigen::Vector3f(0.05F, 0.05F * flatness, 0.04F)) +
+            Eigen::Vector3f(1, 2, 3));
+      const float expected = slowDiameter(mesh);
+      EXPECT_LE(meshDiameter(mesh), expected + 1e-6F);
+      EXPECT_GE(meshDiameter(mesh), expected * (vertices > 2000 ? 0.9995F : 0.999999F));
+    }
 }
 
 TEST(BoundingSphereCenter, isWithinAPerMilleOfTheSmallestSphere)
