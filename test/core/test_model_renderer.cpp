@@ -233,8 +233,8 @@ TEST(RenderPart, leavesOutTrianglesThatReachBehindTheCameraAndDrawsTheRest)
 {
   const TriangleMesh box = shifted(boxMesh({0.05F, 0.05F, 0.05F}), {0, 0, 0.5F});
   const TriangleMesh behind = shifted(boxMesh({0.05F, 0.05F, 0.05F}), {0, 0, -0.5F});
-  TriangleMesh through;  // from 0.3 m behind the camera to 0.3 m before it
-  through.vertices = {{-0.01F, 0.02F, -0.3F}, {0.01F, 0.02F, -0.3F}, {0, 0.02F, 0.3F}};
+  TriangleMesh through;  // from 0.3 m before the camera to 0.3 m behind it
+  through.vertices = {{-0.01F, 0.02F, 0.3F}, {0.01F, 0.02F, 0.3F}, {0, 0.02F, -0.3F}};
   through.triangles = {{0, 1, 2}};
   const auto pose = Eigen::Isometry3d::Identity();
   const RenderedPart alone = rendered(box, pose),

@@ -8,6 +8,7 @@ set(core_tests
     test_mismatch
     test_model_renderer
     test_neighbor_search
+    test_normals
     test_paper_experiments
     test_parallel
     test_pca
@@ -16,6 +17,7 @@ set(core_tests
     test_ppf
     test_ppf_matcher
     test_ppf_model
+    test_selection
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry)
