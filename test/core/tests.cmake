@@ -17,6 +17,7 @@ set(core_tests
     test_ppf
     test_ppf_matcher
     test_ppf_model
+    test_range_image
     test_selection
     test_surface_discrepancy
     test_surface_sampling
