@@ -22,4 +22,5 @@ set(core_tests
     test_selection
     test_surface_discrepancy
     test_surface_sampling
-    test_symmetry)
+    test_symmetry
+    test_verification)
