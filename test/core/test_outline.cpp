@@ -103,6 +103,8 @@ TEST(OutlineOf, rimsWithinThePartBelongToItOnTheirUpperSide)
   {
     EXPECT_NEAR(point.point.z(), 0.585F, 1e-5) << "the post's edge, not the plate beside it";
     EXPECT_GT(point.direction.dot(point.point.head<2>().normalized()), 0.6F);
+    for (std::size_t i = kOutlineReach_px; i < point.profile_m.size(); ++i)
+      EXPECT_NEAR(point.profile_m[i], 0, 1e-5) << "the post's face goes on, not the plate";
   }
   EXPECT_TRUE(within(outlineOf(view, smallCamera(), 0.016F, 1)).empty()) << "lower than the fall";
 }
@@ -197,10 +199,10 @@ TEST_P(MatchOutline, isAbsentWhereTheCloudLiesBehindThePart)
   expect([](int t) { return t > 0 ? 0.5F : 0.6F; }, OutlineEnd::kAbsent, 0);
 }
 
-TEST_P(MatchOutline, isMissingWhereTooLittleIsMeasuredToCallItAbsent)
+TEST_P(MatchOutline, isHiddenWhereTooLittleIsMeasuredToTell)
 {
-  expect([](int) { return 0.0F; }, OutlineEnd::kMissing, 0);
-  expect([](int t) { return t > 0 ? 0.6F : 0.0F; }, OutlineEnd::kMissing, 0);
+  expect([](int) { return 0.0F; }, OutlineEnd::kHidden, 0);
+  expect([](int t) { return t > 0 ? 0.6F : 0.0F; }, OutlineEnd::kHidden, 0);
 }
 
 TEST_P(MatchOutline, followsASurfaceWithinTheGateOfTheProfile)
