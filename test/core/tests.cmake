@@ -15,6 +15,7 @@ set(core_tests
     test_pca
     test_pose_clustering
     test_pose_errors
+    test_pose_refinement
     test_ppf
     test_ppf_matcher
     test_ppf_model
