@@ -239,6 +239,21 @@ TEST_F(VerificationTest, surfacesFlatToTheLineOfSightNeedNotBeSeen)
   EXPECT_EQ(evidence.expected(), 0);
 }
 
+TEST_F(VerificationTest, aSheetIsConfirmedFromEitherSide)
+{
+  const TriangleMesh square = squareMesh(0.04F);
+  const PpfModel sheet = trained(square);
+  for (const double turn_rad : {0.0, M_PI})
+  {
+    const Eigen::Isometry3d T_camera_sheet = poseOf(turn_rad, {1, 0, 0}, {0, 0, 0.6});
+    const PoseEvidence evidence =
+        gatherEvidence(perfectImage({wall(0.8), {square, T_camera_sheet}}), sheet,
+                       T_camera_sheet.cast<float>(), config_);
+    EXPECT_GT(evidence.confirmed.size(), 5000U);
+    EXPECT_DOUBLE_EQ(poseScore(evidence, evidence.confirmed_weight), 1.0);
+  }
+}
+
 TEST_F(VerificationTest, aPartOutsideTheImageHasNoEvidence)
 {
   const Eigen::Isometry3f beside = poseOf(0, {1, 0, 0}, {2, 0, 0.6}).cast<float>();
@@ -363,6 +378,9 @@ TEST(PoseScore, fallsWithContradictionsAloneAndStaysAShare)
   EXPECT_LT(visibleFraction(hidden), visibleFraction(mixedEvidence()));
   EXPECT_GT(poseScore(mixedEvidence(), 90), before);
   EXPECT_EQ(poseScore(mixedEvidence(), 0), 0);
+  PoseEvidence contested;  // nothing against it but the pixels that a better pose claims
+  contested.confirmed_weight = 100;
+  EXPECT_DOUBLE_EQ(poseScore(contested, 80), 0.8);
 }
 
 TEST(AddSlideStop, weighsBothWaysAcrossAlike)
