@@ -39,7 +39,7 @@ TriangleMesh tubeMesh(int around, int along, const Surface& surface)
   return mesh;
 }
 
-/// A sphere about the origin; the triangles lie at most radius / 2000 inside it.
+/// A sphere about the origin; the triangles lie at most radius / 1600 inside it.
 inline TriangleMesh sphereMesh(float radius_m)
 {
   const auto surface = [&](float turn, float rise)
