@@ -18,6 +18,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -99,6 +100,13 @@ void readCamera(const YamlMap& map, CellSettings& cell)
   reader.vector("target_m", cell.camera_target_m);
 }
 
+/// Where programs of this user keep what they can compute anew.
+std::string cacheFolder()
+{
+  const char* const home = std::getenv("HOME");
+  return home == nullptr ? "" : std::string(home) + "/.cache/ppf_bin_picking";
+}
+
 /// @throw InputError naming the parameter and the remedy.
 CameraParams readParams(const ros::NodeHandle& private_nh)
 {
@@ -106,7 +114,7 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
   private_nh.getParam("", tree);
   const YamlMap map(toYaml(tree), private_nh.getNamespace(),
                     {"part", "count", "seed", "rate_hz", "base_frame", "bin_frame", "camera_frame",
-                     "bin", "camera", "sensor"});
+                     "cache_folder", "bin", "camera", "sensor"});
   CameraParams params;
   params.part = map.text("part");
   const Reader reader(map);
@@ -116,6 +124,8 @@ CameraParams readParams(const ros::NodeHandle& private_nh)
   reader.text("base_frame", params.base_frame);
   reader.text("bin_frame", params.bin_frame);
   reader.text("camera_frame", params.camera_frame);
+  params.cell.cache_folder = cacheFolder();
+  reader.text("cache_folder", params.cell.cache_folder);
   if (map.has("bin")) readBin(map.map("bin", {"size_m", "wall_m", "position_m"}), params.cell);
   if (map.has("camera")) readCamera(map.map("camera", {"position_m", "target_m"}), params.cell);
   if (map.has("sensor"))
