@@ -1,5 +1,5 @@
-#include "ppf_bin_picking/sim/bin_filling.hpp"
 #include "ppf_bin_picking/sim/depth_camera.hpp"
+#include "ppf_bin_picking/sim/part_pile.hpp"
 
 #include "support/depth_shots.hpp"
 #include "support/shapes.hpp"
