@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/sim/simulated_cell.hpp"
 
+#include "ppf_bin_picking/sim/part_pile.hpp"
+
 namespace ppf_bin_picking
 {
 CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, int count,
@@ -9,7 +11,11 @@ CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, in
   const TriangleMesh bin = binMesh(settings.bin);
   std::vector<PlacedMesh> meshes = {{&bin, T_base_bin}};
   std::vector<Eigen::Isometry3d> T_base_parts;
-  for (const Eigen::Isometry3d& T_bin_part : fillBin(settings.bin, part, count, seed))
+  PartPile pile(settings.bin, part,
+                settings.cache_folder.empty() ? convexHulls(part)
+                                              : cachedConvexHulls(part, settings.cache_folder));
+  pile.drop(count, seed);
+  for (const Eigen::Isometry3d& T_bin_part : pile.poses())
   {
     T_base_parts.push_back(T_base_bin * T_bin_part);
     meshes.push_back({&part, T_base_parts.back()});

@@ -3,12 +3,13 @@
 
 #include "ppf_bin_picking/core/triangle_mesh.hpp"
 
-#include "ppf_bin_picking/sim/bin_filling.hpp"
+#include "ppf_bin_picking/sim/bin.hpp"
 #include "ppf_bin_picking/sim/depth_camera.hpp"
 
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -21,6 +22,7 @@ struct CellSettings
   Eigen::Vector3d camera_position_m = {0.37, -0.12, 0.75};  ///< The projector is on the other side.
   Eigen::Vector3d camera_target_m = {0.5, 0, 0.02};         ///< In the middle of the image.
   DepthSensor sensor = sensorPreset("industrial");
+  std::string cache_folder;  ///< Keeps the part's convex hulls; empty: they are computed anew.
 };
 
 /// What the camera saw, and the truth about it.
@@ -31,9 +33,11 @@ struct CellShot
   std::vector<PartTruth> parts;
 };
 
-/// Fills the bin and takes a shot. The same arguments give the same bytes.
+/// Drops parts into the bin and takes a shot when they are at rest. The same arguments give the same
+/// bytes.
 /// @param part  A closed mesh, wound outwards.
-/// @throw std::invalid_argument if the part does not fit into the bin, or the sensor has problems.
+/// @throw std::invalid_argument if the part does not fit into the bin, the bin overflows, or the
+///        sensor has problems.
 CellShot simulateCell(const CellSettings& settings, const TriangleMesh& part, int count,
                       std::uint32_t seed);
 }  // namespace ppf_bin_picking
