@@ -20,11 +20,12 @@ add_library(
   ${sim_dir}/hull_cache.cpp
   ${sim_dir}/mass_properties.cpp
   ${sim_dir}/part_pile.cpp
+  ${sim_dir}/pick_judge.cpp
   ${sim_dir}/random.cpp
   ${sim_dir}/ray_caster.cpp
   ${sim_dir}/simulated_cell.cpp
   ${sim_dir}/triangle_points.cpp
   ${sim_dir}/void_search.cpp)
 target_include_directories(${PROJECT_NAME}_sim PRIVATE ${embree_include_dir})
-target_link_libraries(${PROJECT_NAME}_sim PUBLIC ${PROJECT_NAME}_core
-                      PRIVATE ${embree_library} PkgConfig::bullet)
+target_link_libraries(${PROJECT_NAME}_sim PUBLIC ${PROJECT_NAME}_core PRIVATE ${embree_library}
+                                                                              PkgConfig::bullet)

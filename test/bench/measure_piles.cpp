@@ -1,5 +1,5 @@
-/// @file measure_piles: how well the simulated piles of parts behave, a table row for each part file.
-/// The columns are explained in docs/simulator.md.
+/// @file measure_piles: how well the simulated piles of parts behave, a table row for each part
+/// file. The columns are explained in docs/simulator.md.
 #include "ppf_bin_picking/io/mesh_io.hpp"
 #include "ppf_bin_picking/io/part_io.hpp"
 #include "ppf_bin_picking/sim/part_pile.hpp"
@@ -20,7 +20,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kMoved_m = 0.0005;  // a part that settling again moves further has not been at rest
+constexpr double kMoved_m =
+    0.0005;  // a part that settling again moves further has not been at rest
 constexpr float kSpacing_m = 0.001;  // of the surface points whose depth is measured
 
 struct Options
@@ -43,7 +44,8 @@ struct Figures
   double overlapMm(double share) const
   {
     if (overlaps_m.empty()) return 0;
-    return 1e3 * overlaps_m[static_cast<std::size_t>(share * static_cast<double>(overlaps_m.size() - 1))];
+    return 1e3 *
+           overlaps_m[static_cast<std::size_t>(share * static_cast<double>(overlaps_m.size() - 1))];
   }
 };
 
@@ -117,8 +119,9 @@ void measurePart(const std::string& part_file, const Options& options)
 
 void run(const Options& options)
 {
-  std::puts("| part | hulls | seeds | parts | failed piles | outside | moving | overlap p50 mm | p99 mm "
-            "| max mm | CPU s per 40 parts |");
+  std::puts(
+      "| part | hulls | seeds | parts | failed piles | outside | moving | overlap p50 mm | p99 mm "
+      "| max mm | CPU s per 40 parts |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::string& part_file : options.part_files)
     measurePart(part_file, options);

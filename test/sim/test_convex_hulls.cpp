@@ -39,8 +39,7 @@ float excess(const TriangleMesh& hull, const Eigen::Vector3f& point)
   for (const auto& [a, b, c] : hull.triangles)
   {
     const Eigen::Vector3f corner = hull.vertices[a];
-    const Eigen::Vector3f across =
-        (hull.vertices[b] - corner).cross(hull.vertices[c] - corner);
+    const Eigen::Vector3f across = (hull.vertices[b] - corner).cross(hull.vertices[c] - corner);
     if (across.norm() > 0) most = std::max(most, across.normalized().dot(point - corner));
   }
   return most;
@@ -148,7 +147,8 @@ protected:
 
 bool same(const ConvexHulls& a, const ConvexHulls& b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y)
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y)
                     { return x.vertices == y.vertices && x.triangles == y.triangles; });
 }
 

@@ -119,8 +119,9 @@ TEST(PartPile, letsTheRestFallWhereAPartWasTakenOut)
   pile.drop(3, 1);
   auto before = pile.poses();
   const auto height = [](const auto& pose) { return pose.translation().z(); };
-  const auto lowest = std::min_element(before.begin(), before.end(), [&](const auto& a, const auto& b)
-                                       { return height(a) < height(b); });
+  const auto lowest =
+      std::min_element(before.begin(), before.end(),
+                       [&](const auto& a, const auto& b) { return height(a) < height(b); });
   pile.remove(static_cast<std::size_t>(lowest - before.begin()));
   before.erase(lowest);
   const auto untouched = pile.poses();
@@ -137,7 +138,8 @@ TEST(PartPile, refusesWhatCannotWork)
 {
   const TriangleMesh part = angleMesh();
   const ConvexHulls hulls = convexHulls(part);
-  EXPECT_THROW(PartPile({{0.04, 0.04, 0.04}, 0.004}, part, hulls).drop(1, 1), std::invalid_argument);
+  EXPECT_THROW(PartPile({{0.04, 0.04, 0.04}, 0.004}, part, hulls).drop(1, 1),
+               std::invalid_argument);
   EXPECT_THROW(PartPile({{0.08, 0.08, 0.01}, 0.004}, part, hulls).drop(40, 1),
                std::invalid_argument);
   EXPECT_THROW(PartPile({}, part, {}), std::invalid_argument);

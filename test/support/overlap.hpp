@@ -1,4 +1,5 @@
-/// @file How deep parts get into each other and into their bin, measured on their meshes the slow way.
+/// @file How deep parts get into each other and into their bin, measured on their meshes the slow
+/// way.
 #pragma once
 
 #include "ppf_bin_picking/core/triangle_mesh.hpp"
@@ -141,7 +142,8 @@ inline double furthestMove(const TriangleMesh& part, const Eigen::Isometry3d& fr
 {
   double furthest = 0;
   for (const Eigen::Vector3f& vertex : part.vertices)
-    furthest = std::max(furthest, (from * vertex.cast<double>() - to * vertex.cast<double>()).norm());
+    furthest =
+        std::max(furthest, (from * vertex.cast<double>() - to * vertex.cast<double>()).norm());
   return furthest;
 }
 }  // namespace ppf_bin_picking
