@@ -98,6 +98,31 @@ void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConf
     }
   }
 }
+
+Eigen::Vector3f centerOf(const Candidate& candidate, const std::vector<const PpfModel*>& models)
+{
+  return candidate.T_camera_model * models[candidate.model]->data().center;
+}
+
+/// Looks for candidates that the time limit left unverified.
+void findUnknownRivals(const std::vector<const PpfModel*>& models,
+                       const std::vector<Candidate>& candidates,
+                       const std::vector<SelectedPose>& selected,
+                       std::vector<Ambiguity>& ambiguities)
+{
+  for (const Candidate& rival : candidates)
+  {
+    if (rival.verified) continue;
+    for (std::size_t i = 0; i < selected.size(); ++i)
+    {
+      const Candidate& pose = candidates[selected[i].candidate];
+      const auto reach_m = static_cast<float>(
+          std::max(models[pose.model]->diameter(), models[rival.model]->diameter()));
+      if ((centerOf(pose, models) - centerOf(rival, models)).norm() < reach_m)
+        ambiguities[i].rivals_known = false;
+    }
+  }
+}
 }  // namespace
 
 std::vector<Ambiguity> assessAmbiguity(const std::vector<const PpfModel*>& models,
@@ -110,6 +135,7 @@ std::vector<Ambiguity> assessAmbiguity(const std::vector<const PpfModel*>& model
   const Owners owners = ownersOf(candidates, selected, pixels);
   assessSlides(config, candidates, selected, owners, ambiguities);
   assessRivals(models, config, candidates, selected, owners, ambiguities);
+  findUnknownRivals(models, candidates, selected, ambiguities);
   return ambiguities;
 }
 }  // namespace ppf_bin_picking

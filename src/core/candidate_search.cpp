@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace ppf_bin_picking
 {
@@ -16,6 +17,7 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
+constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.
@@ -77,6 +79,42 @@ std::vector<PoseGroup> boundaryPoses(const RangeImage& image, const PpfModel& mo
   joinClusters(distribution, static_cast<float>(dbscanRadius(config, model)), groups);
   return groups;
 }
+
+/// Appends what one model's votes say of the scene.
+void append(std::vector<HypothesisCluster>& clusters, std::vector<PoseHypothesis>& distribution,
+            std::uint32_t model, DetectionResult& result)
+{
+  const auto first_cluster = static_cast<std::int32_t>(result.clusters.size());
+  for (HypothesisCluster& cluster : clusters)
+    cluster.model = model;
+  for (PoseHypothesis& hypothesis : distribution)
+  {
+    hypothesis.model = model;
+    if (hypothesis.cluster >= 0) hypothesis.cluster += first_cluster;
+  }
+  result.clusters.insert(result.clusters.end(), clusters.begin(), clusters.end());
+  result.distribution.insert(result.distribution.end(), distribution.begin(), distribution.end());
+}
+
+/// Indices of the candidates by their distance from the one with the most votes.
+std::vector<std::size_t> fromTheBestOutwards(const std::vector<Candidate>& candidates,
+                                             const std::vector<const PpfModel*>& models)
+{
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (candidates.empty()) return order;
+  std::vector<Eigen::Vector3f> centers;
+  for (const Candidate& candidate : candidates)
+    centers.push_back(candidate.T_camera_model * models[candidate.model]->data().center);
+  const auto best =
+      std::max_element(candidates.begin(), candidates.end(),
+                       [](const auto& a, const auto& b) { return a.votes < b.votes; });
+  const Eigen::Vector3f start = centers[static_cast<std::size_t>(best - candidates.begin())];
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b)
+                   { return (centers[a] - start).norm() < (centers[b] - start).norm(); });
+  return order;
+}
 }  // namespace
 
 OrientedPoints sampleScene(const RangeImage& image, float step_m)
@@ -119,44 +157,44 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
   lap("boundary voting");
 
   const auto first_cluster = static_cast<std::int32_t>(result.clusters.size());
-  const std::size_t first_candidate = candidates.size();
-  candidates.resize(first_candidate + groups.size());
-  const auto refine = [&](std::size_t i)
+  for (const PoseGroup& group : groups)
   {
-    Candidate& candidate = candidates[first_candidate + i];
+    Candidate candidate;
     candidate.model = model_index;
-    candidate.cluster = groups[i].cluster < 0 ? -1 : groups[i].cluster + first_cluster;
-    candidate.votes = groups[i].votes;
-    candidate.T_camera_model = poseOf(groups[i].rotation, groups[i].center, model.data().center);
-    if (!deadline.passed())
-      candidate.T_camera_model = refinePose(image, model, candidate.T_camera_model, config);
-  };
-  parallelFor(config.threads, groups.size(), refine);
-  lap("refinement");
-
-  for (HypothesisCluster& cluster : clusters)
-    cluster.model = model_index;
-  for (PoseHypothesis& hypothesis : distribution)
-  {
-    hypothesis.model = model_index;
-    if (hypothesis.cluster >= 0) hypothesis.cluster += first_cluster;
+    candidate.cluster = group.cluster < 0 ? -1 : group.cluster + first_cluster;
+    candidate.votes = group.votes;
+    candidate.T_camera_model = poseOf(group.rotation, group.center, model.data().center);
+    candidates.push_back(candidate);
   }
-  result.clusters.insert(result.clusters.end(), clusters.begin(), clusters.end());
-  result.distribution.insert(result.distribution.end(), distribution.begin(), distribution.end());
+  append(clusters, distribution, model_index, result);
 }
 
 void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
                       const DetectorConfig& config, const Deadline& deadline,
+                      const std::function<void(const char*)>& lap,
                       std::vector<Candidate>& candidates)
 {
-  const auto verify = [&](std::size_t i)
+  const std::vector<std::size_t> order = fromTheBestOutwards(candidates, models);
+  for (std::size_t first = 0; first < order.size() && !deadline.passed(); first += kBatch)
   {
-    if (deadline.passed()) return;
-    Candidate& candidate = candidates[i];
-    candidate.evidence =
-        gatherEvidence(image, *models[candidate.model], candidate.T_camera_model, config);
-    candidate.verified = true;
-  };
-  parallelFor(config.threads, candidates.size(), verify);
+    const std::size_t count = std::min(kBatch, order.size() - first);
+    const auto refine = [&](std::size_t i)
+    {
+      Candidate& candidate = candidates[order[first + i]];
+      candidate.T_camera_model =
+          refinePose(image, *models[candidate.model], candidate.T_camera_model, config);
+    };
+    parallelFor(config.threads, count, refine);
+    lap("refinement");
+    const auto verify = [&](std::size_t i)
+    {
+      Candidate& candidate = candidates[order[first + i]];
+      candidate.evidence =
+          gatherEvidence(image, *models[candidate.model], candidate.T_camera_model, config);
+      candidate.verified = true;
+    };
+    parallelFor(config.threads, count, verify);
+    lap("verification");
+  }
 }
 }  // namespace ppf_bin_picking

@@ -16,6 +16,9 @@ namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kMaxDiameterPerSpan = 3;     // a part much larger than the scene has a wrong unit
+constexpr double kMinPixelsPerDiameter = 20;  // below, chance fits look like parts
+
 /// Measures the stages one after the other.
 class StageClock
 {
@@ -89,10 +92,68 @@ void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
   else
   {
     result.status = DetectionStatus::kNoPickablePose;
-    text << "no reliable pose among " << result.poses.size()
-         << " found: see the mismatching regions for the reasons";
+    if (result.poses.empty())
+      text << "nothing like the part was found among " << result.roi_points
+           << " points: check the region of interest and the part's mesh and unit";
+    else
+      text << "no reliable pose among " << result.poses.size()
+           << " found: see the mismatching regions for the reasons";
   }
   result.message = text.str();
+}
+
+/// What keeps the image from showing the parts. Empty: nothing.
+std::string imageProblem(const RangeImageResult& prepared,
+                         const std::vector<const PpfModel*>& models)
+{
+  std::ostringstream text;
+  text.precision(3);
+  double largest_m = 0;
+  for (const PpfModel* model : models)
+    largest_m = std::max(largest_m, model->diameter());
+  if (largest_m > kMaxDiameterPerSpan * prepared.span_m)
+    text << "the part is " << largest_m << " m long but the cloud's points lie within "
+         << prepared.span_m << " m: the mesh's unit or the cloud's is probably wrong (m for mm)";
+  else if (prepared.pixels_per_diameter < kMinPixelsPerDiameter)
+    text << "the part measures only " << prepared.pixels_per_diameter
+         << " pixels across in this cloud and needs " << kMinPixelsPerDiameter
+         << ": take a finer or nearer camera, or mend the unit if the cloud is not in metres";
+  return text.str();
+}
+
+/// From a cloud that can be worked on to the poses.
+void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
+            const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,
+            const Deadline& deadline, StageClock& clock, DetectionResult& result)
+{
+  const RangeImageResult prepared = makeRangeImage(cloud_camera, roi, imageOptions(config, models));
+  const RangeImage& image = prepared.image;
+  result.roi_points = prepared.roi_points;
+  const auto lap = [&](const char* stage) { clock.lap(stage, result.stages); };
+  lap("preparation");
+  if (prepared.roi_points == 0)
+  {
+    result.status = DetectionStatus::kRoiEmpty;
+    result.message = roi ? "no measured point in the region of interest: the bin is empty, or the "
+                           "region is misplaced"
+                         : "no measured point in front of the camera: check its view and exposure";
+    return;
+  }
+  result.message = imageProblem(prepared, models);
+  if (!result.message.empty())
+  {
+    result.status = DetectionStatus::kBadCloud;
+    return;
+  }
+  std::vector<Candidate> candidates;
+  for (std::uint32_t i = 0; i < models.size(); ++i)
+    searchCandidates(image, *models[i], i, config, deadline, lap, result, candidates);
+  verifyCandidates(image, models, config, deadline, lap, candidates);
+  const bool cut_short = deadline.passed();
+  const std::vector<SelectedPose> selected = selectCandidates(candidates, image.depth.size());
+  reportPoses(models, config, candidates, selected, image, result);
+  lap("selection");
+  setStatus(result, cut_short, config.time_limit_s);
 }
 }  // namespace
 
@@ -121,14 +182,16 @@ Detector::Detector(DetectorConfig config) : config_(config)
 }
 
 DetectionResult Detector::detect(const PointCloud& cloud_camera, const PpfModel& model,
-                                 const std::optional<RegionOfInterest>& roi) const
+                                 const std::optional<RegionOfInterest>& roi,
+                                 const std::atomic<bool>* stop) const
 {
-  return detect(cloud_camera, std::vector<const PpfModel*>{&model}, roi);
+  return detect(cloud_camera, std::vector<const PpfModel*>{&model}, roi, stop);
 }
 
 DetectionResult Detector::detect(const PointCloud& cloud_camera,
                                  const std::vector<const PpfModel*>& models,
-                                 const std::optional<RegionOfInterest>& roi) const
+                                 const std::optional<RegionOfInterest>& roi,
+                                 const std::atomic<bool>* stop) const
 {
   if (models.empty()) throw std::invalid_argument("no model to look for: give at least one");
   for (const PpfModel* model : models)
@@ -137,38 +200,13 @@ DetectionResult Detector::detect(const PointCloud& cloud_camera,
     if (!problem.empty()) throw std::invalid_argument(problem);
   }
   StageClock clock;
-  const Deadline deadline(config_.time_limit_s);
+  const Deadline deadline(config_.time_limit_s, stop);
   DetectionResult result;
   result.message = cloudProblem(cloud_camera, config_);
   if (!result.message.empty())
-  {
     result.status = DetectionStatus::kBadCloud;
-    result.seconds = clock.total();
-    return result;
-  }
-  const RangeImageResult prepared =
-      makeRangeImage(cloud_camera, roi, imageOptions(config_, models));
-  result.roi_points = prepared.roi_points;
-  clock.lap("preparation", result.stages);
-  if (prepared.roi_points == 0)
-  {
-    result.status = DetectionStatus::kRoiEmpty;
-    result.message =
-        "no measured point in the region of interest: the bin is empty, or the region is misplaced";
-    result.seconds = clock.total();
-    return result;
-  }
-  const auto lap = [&](const char* stage) { clock.lap(stage, result.stages); };
-  std::vector<Candidate> candidates;
-  for (std::uint32_t i = 0; i < models.size(); ++i)
-    searchCandidates(prepared.image, *models[i], i, config_, deadline, lap, result, candidates);
-  verifyCandidates(prepared.image, models, config_, deadline, candidates);
-  lap("verification");
-  const std::vector<SelectedPose> selected =
-      selectCandidates(candidates, prepared.image.depth.size());
-  reportPoses(models, config_, candidates, selected, prepared.image, result);
-  lap("selection");
-  setStatus(result, deadline.passed(), config_.time_limit_s);
+  else
+    search(cloud_camera, models, config_, roi, deadline, clock, result);
   result.seconds = clock.total();
   return result;
 }

@@ -61,6 +61,7 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("max_slide_share", max_slide_share, 0.0, 1.0);
   check.within("min_margin", min_margin, -1.0, 1.0);
   check.within("min_visible_share", min_visible_share, 0.0, 1.0);
+  check.within("min_confirmed_px", min_confirmed_px, 1, kMany);
   check.within("threads", threads, 0, 1024);
   check.within("time_limit_s", time_limit_s, 0.0, kHuge);
   return check.take();

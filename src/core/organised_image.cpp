@@ -18,15 +18,12 @@ struct Window
   int top = std::numeric_limits<int>::max();
   int right = -1;
   int bottom = -1;
-  float nearest_z = std::numeric_limits<float>::max();
 
-  void add(int u, int v, float z)
+  void add(int u, int v)
   {
     left = std::min(left, u), right = std::max(right, u);
     top = std::min(top, v), bottom = std::max(bottom, v);
-    nearest_z = std::min(nearest_z, z);
   }
-  bool empty() const { return right < left; }
   void grow(int margin, int width, int height)
   {
     left = std::max(0, left - margin), right = std::min(width - 1, right + margin);
@@ -92,32 +89,27 @@ void takeCloudNormals(const PointCloud& cloud, RangeImage& image)
   }
 }
 
-RangeImageResult imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera,
-                                  const std::vector<std::uint8_t>& inside,
-                                  const RangeImageOptions& options)
+RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera,
+                            const std::vector<std::uint8_t>& inside, float near_z,
+                            const RangeImageOptions& options)
 {
-  RangeImageResult result;
   Window window;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (inside[i])
-    {
-      window.add(static_cast<int>(i % cloud.width), static_cast<int>(i / cloud.width),
-                 cloud.points[i].z());
-      ++result.roi_points;
-    }
-  if (window.empty()) return result;
-  const double per_meter = camera.fx / window.nearest_z;
-  window.grow(static_cast<int>(std::ceil(kMarginRel * options.largest_diameter_m * per_meter)),
+    if (inside[i]) window.add(static_cast<int>(i % cloud.width), static_cast<int>(i / cloud.width));
+  const double per_meter = camera.fx / near_z;
+  const double margin_px = kMarginRel * options.largest_diameter_m * per_meter;
+  const int largest_side_px = std::max(camera.width, camera.height);
+  window.grow(static_cast<int>(std::min<double>(std::ceil(margin_px), largest_side_px)),
               camera.width, camera.height);
-  const int factor = std::max(
-      1, static_cast<int>(options.diameter_m * per_meter / options.pixels_per_diameter + 0.25));
-  result.image = averagedDown(cloud, inside, camera, window, factor,
-                              kSameSurfaceRel * static_cast<float>(options.diameter_m));
+  const double wanted_factor = options.diameter_m * per_meter / options.pixels_per_diameter + 0.25;
+  const int factor = static_cast<int>(std::clamp<double>(wanted_factor, 1, largest_side_px));
+  RangeImage image = averagedDown(cloud, inside, camera, window, factor,
+                                  kSameSurfaceRel * static_cast<float>(options.diameter_m));
   if (options.use_cloud_normals && !cloud.normals.empty())
-    takeCloudNormals(cloud, result.image);
+    takeCloudNormals(cloud, image);
   else
-    estimateImageNormals(result.image, options.normal_radius_px,
+    estimateImageNormals(image, options.normal_radius_px,
                          kNormalGateRel * static_cast<float>(options.diameter_m), options.threads);
-  return result;
+  return image;
 }
 }  // namespace ppf_bin_picking

@@ -144,7 +144,6 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
             last_px};  // rises, or something in front
   }
   if (on_surface) return {OutlineEnd::kGoesOn, last_px};
-  if (hidden) return {};
-  return {absent > reach_px ? OutlineEnd::kAbsent : OutlineEnd::kMissing, 0};
+  return {!hidden && absent > reach_px ? OutlineEnd::kAbsent : OutlineEnd::kHidden, 0};
 }
 }  // namespace ppf_bin_picking

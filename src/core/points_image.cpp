@@ -34,28 +34,35 @@ float pointSpacing(const std::vector<Eigen::Vector3f>& points)
   return *middle;
 }
 
-/// A camera at the origin that sees all points, and a margin around them, in pixels of a given
-/// angle.
+/// The part of a coordinate's values that matters: without the outermost thousandth at either end,
+/// which may be stray points.
+std::pair<float, float> extentOf(std::vector<float>& values)
+{
+  return {percentile(values, 0.001), percentile(values, 0.999)};
+}
+
+/// A camera at the origin that sees the points but for stray ones, and a margin around them, in
+/// pixels of a given angle.
 PinholeCamera cameraAround(const std::vector<Eigen::Vector3f>& points, float pixel_rad,
                            float margin_rad)
 {
-  Eigen::Array2f low = Eigen::Array2f::Constant(std::numeric_limits<float>::max());
-  Eigen::Array2f high = -low;
+  std::vector<float> slopes_x, slopes_y;
   for (const Eigen::Vector3f& p : points)
   {
-    const Eigen::Array2f slope = (p.head<2>() / p.z()).array();
-    low = low.min(slope);
-    high = high.max(slope);
+    slopes_x.push_back(p.x() / p.z());
+    slopes_y.push_back(p.y() / p.z());
   }
-  low -= margin_rad;
-  high += margin_rad;
-  pixel_rad = std::max(pixel_rad, (high - low).maxCoeff() / static_cast<float>(kMaxImageSide_px));
+  auto [left, right] = extentOf(slopes_x);
+  auto [top, bottom] = extentOf(slopes_y);
+  left -= margin_rad, right += margin_rad, top -= margin_rad, bottom += margin_rad;
+  const float side_rad = std::max(right - left, bottom - top);
+  pixel_rad = std::max(pixel_rad, side_rad / static_cast<float>(kMaxImageSide_px));
   PinholeCamera camera;
   camera.fx = camera.fy = 1 / pixel_rad;
-  camera.cx = 1 - low.x() * camera.fx;
-  camera.cy = 1 - low.y() * camera.fy;
-  camera.width = static_cast<int>((high.x() - low.x()) * camera.fx) + 3;
-  camera.height = static_cast<int>((high.y() - low.y()) * camera.fy) + 3;
+  camera.cx = 1 - left * camera.fx;
+  camera.cy = 1 - top * camera.fy;
+  camera.width = static_cast<int>((right - left) * camera.fx) + 3;
+  camera.height = static_cast<int>((bottom - top) * camera.fy) + 3;
   return camera;
 }
 
@@ -123,33 +130,25 @@ void estimateNormals(RangeImage& image, float reach_m, int threads)
 }
 }  // namespace
 
-RangeImageResult imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
-                               const RangeImageOptions& options)
+RangeImage imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
+                         float near_z, const RangeImageOptions& options)
 {
-  RangeImageResult result;
   std::vector<Eigen::Vector3f> points;
-  float nearest_z = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    if (!inside[i]) continue;
-    points.push_back(cloud.points[i]);
-    nearest_z = std::min(nearest_z, cloud.points[i].z());
-  }
-  result.roi_points = points.size();
-  if (points.empty()) return result;
+    if (inside[i]) points.push_back(cloud.points[i]);
   const auto diameter = static_cast<float>(options.diameter_m);
-  const float wanted_rad = diameter / nearest_z / static_cast<float>(options.pixels_per_diameter);
-  const float margin_rad = kMarginRel * static_cast<float>(options.largest_diameter_m) / nearest_z;
-  RangeImage& image = result.image;
+  const float wanted_rad = diameter / near_z / static_cast<float>(options.pixels_per_diameter);
+  const float margin_rad = kMarginRel * static_cast<float>(options.largest_diameter_m) / near_z;
+  RangeImage image;
   image.camera = cameraAround(points, std::max(wanted_rad, kPixelPerSpacing * pointSpacing(points)),
                               margin_rad);
   drawPoints(cloud, inside, image);
   fillHoles(image, kSameSurfaceRel * diameter);
-  const float pixel_m = nearest_z / image.camera.fx;
+  const float pixel_m = near_z / image.camera.fx;
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);
   else
     estimateNormals(image, std::max(4 * pixel_m, kNormalGateRel * diameter), options.threads);
-  return result;
+  return image;
 }
 }  // namespace ppf_bin_picking

@@ -188,8 +188,9 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
     NormalEquations equations = equationsOf(image, part.surface, pose, center, lever_m, gate_m);
     const int reach_px =
         kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
-    addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
-               equations);
+    if (i > 0)  // while the surface does not lie in its plane, it seems to end where it does not
+      addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
+                 equations);
     if (!(equations.weight > 6)) break;
     const Vector6f step = equations.solve();
     pose = moved(pose, step, center, lever_m);

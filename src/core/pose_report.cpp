@@ -34,9 +34,10 @@ std::string percent(double share)
 }
 
 /// Why a pose cannot be trusted; kNone if it can.
-UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
+UnreliableReason reasonOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
                           const PpfModel& model, const DetectorConfig& config)
 {
+  if (!rivals_known) return UnreliableReason::kRunnerUp;
   const bool spread = sideSum(share.box) > config.max_spread_rel * model.diameter();
   if (config.mismatch_test && config.clustering == Clustering::kDbscan && spread)
     return UnreliableReason::kSpread;
@@ -44,14 +45,17 @@ UnreliableReason reasonOf(const DetectedPose& pose, const ClusterShare& share,
     return UnreliableReason::kSlippage;
   if (config.mismatch_test && pose.margin < config.min_margin) return UnreliableReason::kRunnerUp;
   if (pose.score < config.min_score || pose.support < config.min_support ||
-      pose.visible_fraction < config.min_visible_share)
+      pose.visible_fraction < config.min_visible_share ||
+      pose.confirmed_px < config.min_confirmed_px)
     return UnreliableReason::kLowScore;
   return UnreliableReason::kNone;
 }
 
-std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const PpfModel& model,
-                     const DetectorConfig& config)
+std::string detailOf(const DetectedPose& pose, bool rivals_known, const OrientedBox& spread,
+                     const PpfModel& model, const DetectorConfig& config)
 {
+  if (!rivals_known)
+    return "the time limit came before every other pose there was looked at: raise time_limit_s";
   if (pose.reason == UnreliableReason::kSpread)
     return "the hypotheses spread over " + percent(sideSum(spread) / model.diameter()) +
            " of the part's diameter, more than max_spread_rel allows (" +
@@ -67,10 +71,12 @@ std::string detailOf(const DetectedPose& pose, const OrientedBox& spread, const 
   return "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
          "), support " + percent(pose.support) + " (min_support " + percent(config.min_support) +
          "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
-         percent(config.min_visible_share) + ")";
+         percent(config.min_visible_share) + "), confirmed by " +
+         std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
+         std::to_string(config.min_confirmed_px) + ")";
 }
 
-MismatchingRegion regionOf(const DetectedPose& pose, const ClusterShare& share,
+MismatchingRegion regionOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
                            const PpfModel& model, const DetectorConfig& config)
 {
   MismatchingRegion region;
@@ -81,7 +87,7 @@ MismatchingRegion regionOf(const DetectedPose& pose, const ClusterShare& share,
   region.T_cloud_best = pose.T_cloud_model;
   region.score = pose.score;
   region.hypotheses = share.hypotheses;
-  region.detail = detailOf(pose, share.box, model, config);
+  region.detail = detailOf(pose, rivals_known, share.box, model, config);
   return region;
 }
 
@@ -97,6 +103,7 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, doubl
   pose.visible_fraction = visibleFraction(candidate.evidence);
   pose.rms_error_m = candidate.evidence.rms_error_m;
   pose.support = candidate.evidence.support();
+  pose.confirmed_px = static_cast<int>(candidate.evidence.confirmed.size());
   pose.evidence_balance = balance / std::max(1.0, candidate.evidence.confirmed_weight);
   pose.cluster = candidate.cluster;
   return pose;
@@ -135,7 +142,7 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
     DetectedPose pose = poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
-        regionOf(pose, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
+        regionOf(pose, true, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
   }
 }
 }  // namespace
@@ -183,9 +190,11 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       share = {cluster.box, cluster.hypotheses};
     }
     pose.spread = sideSum(share.box) / model.diameter();
-    pose.reason = reasonOf(pose, share, model, config);
+    const bool rivals_known = ambiguities[i].rivals_known;
+    pose.reason = reasonOf(pose, rivals_known, share, model, config);
     pose.reliable = pose.reason == UnreliableReason::kNone;
-    if (!pose.reliable) result.regions.push_back(regionOf(pose, share, model, config));
+    if (!pose.reliable)
+      result.regions.push_back(regionOf(pose, rivals_known, share, model, config));
     result.poses.push_back(pose);
   }
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);

@@ -5,6 +5,7 @@
 #include "range_image_makers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ppf_bin_picking
@@ -13,6 +14,8 @@ namespace
 {
 constexpr std::size_t kCameraSamples = 20000;  // points that the camera is fitted to
 constexpr float kMaxCameraError_px = 0.5F;
+constexpr std::size_t kRangeSamples = 20000;  // points whose percentiles are taken
+constexpr double kStrayShare = 0.05;          // of the points, at either end
 
 /// Least squares of pixel = focal * slope + center.
 struct LineFit
@@ -58,7 +61,6 @@ std::vector<std::uint8_t> pointsInRegion(const PointCloud& cloud,
               });
   return inside;
 }
-
 }  // namespace
 
 std::optional<PinholeCamera> estimateCamera(const PointCloud& cloud)
@@ -89,12 +91,47 @@ std::optional<PinholeCamera> estimateCamera(const PointCloud& cloud)
   return camera;
 }
 
+float percentile(std::vector<float>& values, double share)
+{
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+PointRange rangeOf(const PointCloud& cloud, const std::vector<std::uint8_t>& inside)
+{
+  const auto count = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
+  if (count == 0) return {};
+  const std::size_t stride = std::max<std::size_t>(1, count / kRangeSamples) | 1;
+  std::array<std::vector<float>, 3> values;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (inside[i] && seen++ % stride == 0)
+      for (std::size_t k = 0; k < 3; ++k)
+        values[k].push_back(cloud.points[i][static_cast<Eigen::Index>(k)]);
+  PointRange range;
+  range.near_z = percentile(values[2], kStrayShare);
+  Eigen::Vector3f sides;
+  for (std::size_t k = 0; k < 3; ++k)
+    sides[static_cast<Eigen::Index>(k)] =
+        percentile(values[k], 1 - kStrayShare) - percentile(values[k], kStrayShare);
+  range.span_m = sides.norm();
+  return range;
+}
+
 RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<RegionOfInterest>& roi,
                                 const RangeImageOptions& options)
 {
   const std::vector<std::uint8_t> inside = pointsInRegion(cloud, roi, options.threads);
+  RangeImageResult result;
+  result.roi_points = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
+  if (result.roi_points == 0) return result;
+  const PointRange range = rangeOf(cloud, inside);
   const std::optional<PinholeCamera> camera = estimateCamera(cloud);
-  return camera ? imageOfOrganised(cloud, *camera, inside, options)
-                : imageOfPoints(cloud, inside, options);
+  result.image = camera ? imageOfOrganised(cloud, *camera, inside, range.near_z, options)
+                        : imageOfPoints(cloud, inside, range.near_z, options);
+  result.span_m = range.span_m;
+  result.pixels_per_diameter = options.diameter_m * result.image.camera.fx / range.near_z;
+  return result;
 }
 }  // namespace ppf_bin_picking

@@ -3,6 +3,8 @@
 
 #include "ppf_bin_picking/core/range_image.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,24 +16,38 @@ constexpr float kNormalGateRel =
 constexpr float kSameSurfaceRel =
     0.02F;  ///< Depths this near belong to one surface, of the smallest diameter.
 
-/// True for a finite point in front of the camera.
+/// True for a finite point that a camera can have seen: at least 1 mm in front of it, and not
+/// sideways of it (87 degrees off the line of sight).
 inline bool measured(const Eigen::Vector3f& p)
 {
-  return p.allFinite() && p.z() > 0;
+  return p.allFinite() && p.z() > 1e-3F && std::max(std::abs(p.x()), std::abs(p.y())) < 20 * p.z();
 }
+
+/// Where the points inside the region lie, stray ones aside: percentiles over a sample of them.
+struct PointRange
+{
+  float near_z = 0;  ///< Depth that 5 % of the points are nearer than [m]. 0 without points.
+  float span_m = 0;  ///< Diagonal of the box of the middle 90 % in x, y and z.
+};
+PointRange rangeOf(const PointCloud& cloud, const std::vector<std::uint8_t>& inside);
+
+/// The value that a share of the values are below. @param values  Not empty; gets another order.
+float percentile(std::vector<float>& values, double share);
 
 /// Puts the cloud's normals at the pixels that show its points, turned towards the camera.
 void takeCloudNormals(const PointCloud& cloud, RangeImage& image);
 
 /// The image of an organised cloud: its own pixels around the region, averaged down by a whole
 /// number.
-/// @param inside  1 for each point in the region of interest.
-RangeImageResult imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera,
-                                  const std::vector<std::uint8_t>& inside,
-                                  const RangeImageOptions& options);
+/// @param inside  1 for each point in the region of interest; at least one.
+/// @param near_z  Depth that the resolution is chosen for [m].
+RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera,
+                            const std::vector<std::uint8_t>& inside, float near_z,
+                            const RangeImageOptions& options);
 
 /// The image of points in any order, seen from the origin in pixels as large as their spacing.
-/// @param inside  1 for each point in the region of interest.
-RangeImageResult imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
-                               const RangeImageOptions& options);
+/// @param inside  1 for each point in the region of interest; at least one.
+/// @param near_z  Depth that the resolution is chosen for [m].
+RangeImage imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
+                         float near_z, const RangeImageOptions& options);
 }  // namespace ppf_bin_picking

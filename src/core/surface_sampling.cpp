@@ -91,6 +91,10 @@ void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
       const float tolerance = diameter * kDepthToleranceRel * (1 + slant);
       const float seen = view.depthAt(column, row);
       if (seen == 0 || p.z() > seen + tolerance) continue;
+      const std::uint32_t shown =
+          view.triangle[static_cast<std::size_t>(row) * view.width + column];
+      const float same = view.normals[shown].dot(view.normals[sample.triangle]);
+      if (std::abs(same) < kSameDirection) continue;  // a surface beside it, at an edge
       ++(cosine > 0 ? sample.seen_front : sample.seen_back);
     }
   }
@@ -116,8 +120,7 @@ float meshDiameter(const TriangleMesh& mesh)
   if (mesh.vertices.size() <= kDirections) extremes = mesh.vertices;
   for (int i = 0; i < kDirections && mesh.vertices.size() > kDirections; ++i)
   {
-    const Eigen::Vector3f direction =
-        evenDirection(i % kViews, kViews) + 0.1F * evenDirection((7 * i) % kViews, kViews);
+    const Eigen::Vector3f direction = evenDirection(i, kDirections);
     const auto farther = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
     { return a.dot(direction) < b.dot(direction); };
     extremes.push_back(*std::max_element(mesh.vertices.begin(), mesh.vertices.end(), farther));

@@ -42,6 +42,7 @@ json toJson(const DetectedPose& pose)
           {"reason", toString(pose.reason)},
           {"visible_fraction", pose.visible_fraction},
           {"rms_error", pose.rms_error_m},
+          {"confirmed_px", pose.confirmed_px},
           {"slide_share", pose.slide_share},
           {"hold", pose.hold},
           {"spread", pose.spread},
@@ -83,6 +84,7 @@ DetectedPose poseFrom(const json& item)
   pose.rms_error_m = item.value("rms_error", 0.0);
   pose.slide_share = item.value("slide_share", 0.0);
   pose.margin = item.value("margin", 1.0);
+  pose.confirmed_px = item.value("confirmed_px", 0);
   pose.hold = item.value("hold", 0.0);
   pose.spread = item.value("spread", 0.0);
   pose.support = item.value("support", 0.0);

@@ -144,5 +144,16 @@ TEST_F(AmbiguityTest, aRivalWithMoreEvidenceMakesTheMarginNegative)
   stand(0);
   EXPECT_NEAR(assess()[0].margin, -0.5, 1e-9);
 }
+
+TEST_F(AmbiguityTest, aCandidateLeftUnverifiedWithinADiameterMayBeARival)
+{
+  add(0, 0, 100);
+  add(0.2, 100, 100);
+  add(0.03, 0, 0).verified = false;
+  stand(0);
+  stand(1);
+  EXPECT_FALSE(assess()[0].rivals_known);
+  EXPECT_TRUE(assess()[1].rivals_known);
+}
 }  // namespace
 }  // namespace ppf_bin_picking

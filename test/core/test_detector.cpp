@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
 
 namespace ppf_bin_picking
@@ -216,6 +217,66 @@ TEST_F(DetectorTest, endsAtTheTimeLimitWithoutWrongPoses)
     for (const DetectedPose& pose : result.poses)
       EXPECT_TRUE(!pose.reliable || isBracket(pose));
   }
+}
+
+TEST_F(DetectorTest, endsWhenToldToStop)
+{
+  const std::atomic<bool> stop = true;
+  const DetectionResult result = Detector(coarseConfig()).detect(cloud(), bracket_, roi_, &stop);
+  EXPECT_EQ(result.status, DetectionStatus::kTimeLimit);
+  EXPECT_TRUE(result.poses.empty());
+}
+
+TEST_F(DetectorTest, strayPointsChangeNothing)
+{
+  const RegionOfInterest tall{T_camera_table_, {-0.14, -0.1, 0.004}, {0.14, 0.1, 0.7}};
+  const auto findIn = [&](const PointCloud& seen)
+  {
+    const DetectionResult result = Detector(coarseConfig()).detect(seen, bracket_, tall);
+    return !result.poses.empty() && result.poses[0].reliable && isBracket(result.poses[0]);
+  };
+  ASSERT_TRUE(findIn(cloud()));
+  ASSERT_TRUE(findIn(shuffledCloud(cloud())));
+  const std::size_t middle = 120 * 320 + 160;
+  for (const float z : {1e-30F, 0.05F, 0.2F})
+  {
+    SCOPED_TRACE(z);
+    PointCloud seen = cloud();
+    seen.points[middle] *= z / seen.points[middle].z();
+    EXPECT_TRUE(findIn(seen));
+    EXPECT_TRUE(findIn(shuffledCloud(seen)));
+  }
+  PointCloud sideways = shuffledCloud(cloud());
+  sideways.points.emplace_back(1e30F, 0.0F, 1e-30F);
+  sideways.points.emplace_back(1e30F, 1e30F, 1.0F);
+  ++ ++sideways.width;
+  EXPECT_TRUE(findIn(sideways));
+}
+
+TEST_F(DetectorTest, refusesCloudsThatCannotShowThePart)
+{
+  const auto expectBad = [&](const PointCloud& seen, const std::string& word)
+  {
+    const DetectionResult result = Detector(coarseConfig()).detect(seen, bracket_);
+    EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
+    EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
+    EXPECT_TRUE(result.poses.empty());
+  };
+  PointCloud coarse;  // every 16th pixel of each row and column
+  coarse.width = 20;
+  coarse.height = 15;
+  for (std::size_t v = 0; v < coarse.height; ++v)
+    for (std::size_t u = 0; u < coarse.width; ++u)
+      coarse.points.push_back(cloud().points[16 * v * 320 + 16 * u]);
+  expectBad(coarse, "pixels across");
+  PointCloud millimetres = cloud();
+  for (Eigen::Vector3f& point : millimetres.points)
+    point *= 1000;
+  expectBad(millimetres, "if the cloud is not in metres");
+  PointCloud tiny = cloud();
+  for (Eigen::Vector3f& point : tiny.points)
+    point *= 0.02F;
+  expectBad(tiny, "unit");
 }
 
 TEST_F(DetectorTest, refusesModelsThatDoNotFit)

@@ -6,14 +6,23 @@ set(core_tests
     test_detector
     test_detector_config
     test_mismatch
+    test_model_renderer
     test_neighbor_search
+    test_normals
+    test_outline
     test_paper_experiments
     test_parallel
     test_pca
     test_pose_clustering
     test_pose_errors
+    test_pose_information
+    test_pose_refinement
     test_ppf
     test_ppf_matcher
     test_ppf_model
+    test_range_image
+    test_selection
     test_surface_discrepancy
-    test_symmetry)
+    test_surface_sampling
+    test_symmetry
+    test_verification)

@@ -39,7 +39,7 @@ TriangleMesh tubeMesh(int around, int along, const Surface& surface)
   return mesh;
 }
 
-/// A sphere about the origin; the triangles lie at most radius / 2000 inside it.
+/// A sphere about the origin; the triangles lie at most radius / 1600 inside it.
 inline TriangleMesh sphereMesh(float radius_m)
 {
   const auto surface = [&](float turn, float rise)
@@ -63,6 +63,27 @@ inline TriangleMesh boxMesh(const Eigen::Vector3f& size_m)
                                                                 (corner & 4) != 0 ? 0.5F : -0.5F)));
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+/// A prism of many sides along z, closed.
+inline TriangleMesh cylinderMesh(float radius_m, float height_m, std::uint32_t sides)
+{
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, -height_m / 2}, {0, 0, height_m / 2}};
+  for (std::uint32_t k = 0; k < sides; ++k)
+  {
+    const auto angle_rad =
+        2 * static_cast<float>(M_PI) * static_cast<float>(k) / static_cast<float>(sides);
+    const float x = radius_m * std::cos(angle_rad), y = radius_m * std::sin(angle_rad);
+    mesh.vertices.emplace_back(x, y, -height_m / 2);
+    mesh.vertices.emplace_back(x, y, height_m / 2);
+    const std::uint32_t low = 2 + 2 * k, next = 2 + 2 * ((k + 1) % sides);
+    mesh.triangles.push_back({low, next, next + 1});
+    mesh.triangles.push_back({low, next + 1, low + 1});
+    mesh.triangles.push_back({0, next, low});
+    mesh.triangles.push_back({1, low + 1, next + 1});
+  }
   return mesh;
 }
 

@@ -20,6 +20,8 @@ struct Ambiguity
   /// Lead in evidence over the best other pose that claims the same pixels, relative to the pose's
   /// confirmed pixels. 1 without a rival; below 0 the rival has more.
   double margin = 1;
+  /// False if the time limit left a candidate within a diameter unverified: it may be a rival.
+  bool rivals_known = true;
 };
 
 /// Looks at each standing pose.

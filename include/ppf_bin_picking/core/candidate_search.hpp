@@ -1,5 +1,5 @@
-/// @file From the range image to verified candidates of one model: sampling, voting, clustering,
-/// refinement.
+/// @file From the range image to verified candidates: sampling, voting, clustering, refinement,
+/// verification.
 #pragma once
 
 #include "ppf_bin_picking/core/detection_result.hpp"
@@ -32,16 +32,19 @@ struct Candidate
 /// The measured points of the region with normals, thinned out to a model's sampling step.
 OrientedPoints sampleScene(const RangeImage& image, float step_m);
 
-/// Votes for one model, clusters the hypotheses and refines the best groups. Appends the
-/// distribution and the clusters to the result, and the candidates, most votes first.
+/// Votes for one model, clusters the hypotheses and chooses the groups worth a closer look. Appends
+/// the distribution and the clusters to the result, and the candidates, most votes first.
 /// @param lap  Called with the name of each stage at its end.
 void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint32_t model_index,
                       const DetectorConfig& config, const Deadline& deadline,
                       const std::function<void(const char*)>& lap, DetectionResult& result,
                       std::vector<Candidate>& candidates);
 
-/// Gathers the evidence of each candidate.
+/// Refines each candidate and gathers its evidence, from the one with the most votes outwards, so
+/// that a deadline leaves a place of which all candidates are verified.
+/// @param lap  Called with the name of each stage at its end, several times.
 void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
                       const DetectorConfig& config, const Deadline& deadline,
+                      const std::function<void(const char*)>& lap,
                       std::vector<Candidate>& candidates);
 }  // namespace ppf_bin_picking

@@ -74,7 +74,8 @@ struct DetectedPose
   double visible_fraction =
       0;  ///< Of the surface a free part would show, the share not hidden by others.
   double rms_error_m = 0;  ///< Of the confirmed points, along their normals [m].
-  double support = 0;  ///< Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
+  double support = 0;    ///< Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
+  int confirmed_px = 0;  ///< Pixels of the working image that confirm it.
   double slide_share =
       0;  ///< Of the outline that would stop the worst slide, the broken share. [0, 1]
   double hold =

@@ -7,7 +7,7 @@
 #include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/region_of_interest.hpp"
 
-#include <functional>
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -27,18 +27,21 @@ public:
   /// points are
   ///                      skipped.
   /// @param roi           Where to look; without it everywhere.
+  /// @param stop          Set to true by another thread, ends the search as a time limit does.
   /// @return Poses, best first. Finding none is a normal outcome, see its status.
   /// @throw std::invalid_argument if the model was trained with other parameters, or is larger than
   /// the
   ///        region of interest.
   DetectionResult detect(const PointCloud& cloud_camera, const PpfModel& model,
-                         const std::optional<RegionOfInterest>& roi = std::nullopt) const;
+                         const std::optional<RegionOfInterest>& roi = std::nullopt,
+                         const std::atomic<bool>* stop = nullptr) const;
 
   /// Finds several parts at once; they compete for the cloud, so that no surface is explained
   /// twice.
   /// @param models  Not null. Poses name them by index.
   DetectionResult detect(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
-                         const std::optional<RegionOfInterest>& roi = std::nullopt) const;
+                         const std::optional<RegionOfInterest>& roi = std::nullopt,
+                         const std::atomic<bool>* stop = nullptr) const;
 
   const DetectorConfig& config() const { return config_; }
 

@@ -70,6 +70,8 @@ struct DetectorConfig
   double min_support = 0.5;        ///< Poses with less of their visible pixels confirmed neither.
   double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
 
+  int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
+
   // Running
   int threads = 0;          ///< 0: one per core. >= 0.
   double time_limit_s = 0;  ///< After this time the detection ends with what it has. 0: none.
@@ -113,6 +115,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("min_score", config.min_score);
   visit("min_support", config.min_support);
   visit("min_visible_share", config.min_visible_share);
+  visit("min_confirmed_px", config.min_confirmed_px);
   visit("threads", config.threads);
   visit("time_limit_s", config.time_limit_s);
 }

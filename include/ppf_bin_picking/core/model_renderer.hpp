@@ -41,7 +41,8 @@ struct RenderedPart
 };
 
 /// Renders a mesh into a depth window by a z-buffer. Surfaces that are not closed are seen from
-/// both sides.
+/// both sides. Triangles with a vertex behind the camera, or within 1 mm of it along z, are left
+/// out.
 /// @param T_camera_model  Mesh frame to camera frame [m].
 /// @param rendered        Overwritten; its memory is used again.
 void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model,

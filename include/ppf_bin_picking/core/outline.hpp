@@ -69,7 +69,7 @@ enum class OutlineEnd
   kMissing,  ///< Farther out nothing was measured; the surface may have ended there.
   kGoesOn,   ///< The surface goes on beyond the outline, straight or rising.
   kAbsent,   ///< The part's surface is not there; the cloud lies behind it.
-  kHidden,   ///< Something else lies in front.
+  kHidden,   ///< Something else lies in front, or too little was measured to tell.
 };
 
 /// Where the measured surface ends.

@@ -1,6 +1,7 @@
 /// @file Loops over indices on several threads.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -14,7 +15,7 @@ namespace ppf_bin_picking
 /// @throw what a body throws.
 void parallelFor(int threads, std::size_t count, const std::function<void(std::size_t)>& body);
 
-/// A point in time after which no new work is begun. Counts on the steady clock.
+/// When to begin no new work: after a point in time, on the steady clock, or when told to stop.
 class Deadline
 {
 public:
@@ -22,7 +23,8 @@ public:
   Deadline() = default;
 
   /// @param seconds_from_now  0: never.
-  explicit Deadline(double seconds_from_now)
+  /// @param stop              Outlives the deadline; once true it has passed. Null: not looked at.
+  explicit Deadline(double seconds_from_now, const std::atomic<bool>* stop = nullptr) : stop_(stop)
   {
     using std::chrono::steady_clock;
     if (seconds_from_now > 0)
@@ -30,9 +32,13 @@ public:
                                        std::chrono::duration<double>(seconds_from_now));
   }
 
-  bool passed() const { return end_ && std::chrono::steady_clock::now() >= *end_; }
+  bool passed() const
+  {
+    return (stop_ != nullptr && *stop_) || (end_ && std::chrono::steady_clock::now() >= *end_);
+  }
 
 private:
+  const std::atomic<bool>* stop_ = nullptr;
   std::optional<std::chrono::steady_clock::time_point> end_;
 };
 }  // namespace ppf_bin_picking

@@ -45,7 +45,9 @@ struct RangeImageOptions
 struct RangeImageResult
 {
   RangeImage image;
-  std::size_t roi_points = 0;  ///< Measured points of the cloud inside the region.
+  std::size_t roi_points = 0;      ///< Measured points of the cloud inside the region.
+  double span_m = 0;               ///< Diagonal of the box of the middle 90 % of these points.
+  double pixels_per_diameter = 0;  ///< Of the smallest part, where the points are nearest.
 };
 
 /// The pinhole camera that made an organised cloud, by least squares over its points.
@@ -53,9 +55,11 @@ struct RangeImageResult
 /// half a pixel off.
 std::optional<PinholeCamera> estimateCamera(const PointCloud& cloud);
 
-/// Makes the image. An organised cloud keeps its pixels, averaged down by a whole number; normals
-/// come from the neighbourhood in the image. Any other cloud is projected into a camera of its own
-/// whose pixel is as large as the points' spacing; normals come from the nearest points in space.
+/// Makes the image; it stays empty without a point in the region. Stray points decide neither its
+/// resolution nor its size. An organised cloud keeps its pixels, averaged down by a whole number;
+/// normals come from the neighbourhood in the image. Any other cloud is projected into a camera of
+/// its own whose pixel is as large as the points' spacing; normals come from the nearest points in
+/// space.
 RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<RegionOfInterest>& roi,
                                 const RangeImageOptions& options);
 }  // namespace ppf_bin_picking

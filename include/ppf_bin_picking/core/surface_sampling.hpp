@@ -23,7 +23,8 @@ struct OrientedPoints
   }
 };
 
-/// The largest distance between two vertices [m]; 0 without vertices.
+/// The largest distance between two vertices [m]; 0 without vertices. With more than 2000 of them
+/// up to half a per mille less, since only those farthest out in some direction are compared.
 float meshDiameter(const TriangleMesh& mesh);
 
 /// Centre of a sphere around all vertices, within a per mille of the smallest one's radius [m].
@@ -31,14 +32,15 @@ Eigen::Vector3f boundingSphereCenter(const TriangleMesh& mesh);
 
 /// Samples the outside of a mesh uniformly by area. A point counts as outside if one of many
 /// viewpoints around the part sees it; its normal points to the side it is seen from, whatever the
-/// winding says. A sheet seen from both sides yields points on both.
+/// winding says. Where a mesh is not closed and its back is seen from more than a quarter as many
+/// viewpoints as its front, as of a sheet, it yields points on both sides.
 /// @param mesh       Metres; closed or not. Triangles seen from behind alone are turned round.
 /// @param spacing_m  Distance of neighbouring samples, about.
 OrientedPoints sampleVisibleSurface(TriangleMesh& mesh, float spacing_m);
 
 /// Thins out points to one a cell of a cubic grid and normal direction: points of a cell whose
-/// normals lie within 30 degrees of the first of a direction become their mean. Ordered by cell;
-/// points exactly on a cell's border aside, the order of the input does not matter but for
+/// normals lie within 30 degrees of the first of a direction become their mean. Ordered by cell.
+/// The order of the input decides which normal is the first of a direction, and nothing else but
 /// rounding.
 OrientedPoints thinOut(const OrientedPoints& cloud, float cell_m);
 }  // namespace ppf_bin_picking

@@ -1,0 +1,101 @@
+#include "ppf_bin_picking/core/normals.hpp"
+#include "ppf_bin_picking/core/pose_information.hpp"
+
+#include "support/shapes.hpp"
+#include "support/synthetic.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+RangeImage imageOf(const std::vector<PlacedMesh>& scene)
+{
+  RangeImage image;
+  image.camera = smallCamera();
+  image.depth = renderDepth(scene, image.camera);
+  image.in_roi.assign(image.depth.size(), 1);
+  estimateImageNormals(image, 2, 0.003F, 1);
+  return image;
+}
+
+PpfModel trained(const TriangleMesh& mesh, const SymmetryGroup& symmetries = SymmetryGroup())
+{
+  ModelParameters coarse;
+  coarse.step_rel = 0.2;
+  return PpfModel::train(mesh, symmetries, coarse);
+}
+
+PlacedMesh wall(double z_m)
+{
+  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
+}
+
+float holdIn(const RangeImage& image, const PpfModel& model, const Eigen::Isometry3d& pose)
+{
+  return gatherInformation(image, model, pose.cast<float>(), DetectorConfig())
+      .hold(model, pose.cast<float>());
+}
+
+const TriangleMesh& plateMesh()
+{
+  static const TriangleMesh mesh = boxMesh({0.08F, 0.06F, 0.006F});
+  return mesh;
+}
+
+TEST(PoseInformation, aFreePlateIsHeldAndOneWithinALargerFaceIsNot)
+{
+  const PpfModel plate = trained(plateMesh());
+  const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
+  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}), plate, pose);
+  EXPECT_GT(free, 0.1F);
+  EXPECT_LT(holdIn(imageOf({wall(0.597)}), plate, pose), 0.01F * free);
+}
+
+TEST(PoseInformation, aPlateOnASlideIsHeldLess)
+{
+  const PpfModel plate = trained(plateMesh());
+  const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
+  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}), plate, pose);
+  const TriangleMesh bar = boxMesh({0.3F, 0.06F, 0.006F});  // goes on beyond two of its sides
+  EXPECT_LT(holdIn(imageOf({wall(0.8), {bar, pose}}), plate, pose), 0.2F * free);
+}
+
+TEST(PoseInformation, whatTheSymmetriesHideNeedNotBeHeld)
+{
+  const TriangleMesh mesh = cylinderMesh(0.012F, 0.08F, 64);
+  const SymmetryAxis axis{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+  const Eigen::Isometry3d pose = poseOf(1.3, {1, 0.4, 0}, {0.01, 0, 0.6});
+  const RangeImage image = imageOf({wall(0.8), {mesh, pose}});
+  const float turning = holdIn(image, trained(mesh), pose);
+  EXPECT_LT(turning, 0.01F);
+  EXPECT_GT(holdIn(image, trained(mesh, SymmetryGroup({}, {axis})), pose), 0.02F);
+  const SymmetryAxis other{Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero()};
+  EXPECT_GT(holdIn(image, trained(mesh, SymmetryGroup({}, {axis, other})), pose),
+            holdIn(image, trained(mesh, SymmetryGroup({}, {axis})), pose) - 1e-4F);
+}
+
+TEST(MotionJacobian, isTheChangeOfACoordinateWithASmallMotion)
+{
+  std::mt19937 rng(3);
+  for (int trial = 0; trial < 100; ++trial)
+  {
+    const Eigen::Vector3d arm = randomPoint(rng, 1).cast<double>();
+    const Eigen::Vector3d direction = randomDirection(rng).cast<double>();
+    const Eigen::Vector3d turn = 1e-5 * randomPoint(rng, 1).cast<double>();
+    const Eigen::Vector3d shift = 1e-5 * randomPoint(rng, 1).cast<double>();
+    const Eigen::Vector3d moved = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * arm + shift;
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << turn, shift;
+    const double change =
+        motionJacobian(arm.cast<float>(), direction.cast<float>()).cast<double>().dot(motion);
+    EXPECT_NEAR(change, direction.dot(moved - arm), 1e-9);
+  }
+}
+}  // namespace
+}  // namespace ppf_bin_picking
