@@ -81,25 +81,19 @@ void readPick(const YamlMap& map, PickRule& rule)
   reader.number("push_rel", 0.01, 1, rule.push_rel);
 }
 
-std::string environment(const char* name)
+/// The folder given, or where programs of this user keep what they can compute anew.
+std::string cacheFolder(const CellParams& params)
 {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
-/// ROS's own folder of the user, or the one given.
-std::string hullFolder(const CellParams& params)
-{
-  if (!params.hull_folder.empty()) return params.hull_folder;
-  const std::string ros_home = environment("ROS_HOME");
-  return (ros_home.empty() ? environment("HOME") + "/.ros" : ros_home) + "/ppf_bin_picking/hulls";
+  const char* const home = std::getenv("HOME");
+  if (!params.cache_folder.empty() || home == nullptr) return params.cache_folder;
+  return std::string(home) + "/.cache/ppf_bin_picking";
 }
 }  // namespace
 
 CellParams readCellParams(const YAML::Node& node, const std::string& where)
 {
   const YamlMap map(node, where,
-                    {"part", "count", "seed", "rate_hz", "hull_folder", "base_frame", "bin_frame",
+                    {"part", "count", "seed", "rate_hz", "cache_folder", "base_frame", "bin_frame",
                      "camera_frame", "bin", "camera", "sensor", "pick"});
   CellParams params;
   params.part = map.text("part");
@@ -107,7 +101,7 @@ CellParams readCellParams(const YAML::Node& node, const std::string& where)
   reader.integer("count", 0, CellParams::kMaxParts, params.count);
   reader.integer("seed", 0, CellParams::kMaxSeed, params.seed);
   reader.number("rate_hz", 0, kMaxRate_hz, params.rate_hz);
-  reader.text("hull_folder", params.hull_folder);
+  reader.text("cache_folder", params.cache_folder);
   reader.text("base_frame", params.base_frame);
   reader.text("bin_frame", params.bin_frame);
   reader.text("camera_frame", params.camera_frame);
@@ -126,7 +120,9 @@ LoadedCellPart loadCellPart(const CellParams& params)
   LoadedCellPart result;
   result.model_id = description.model_id;
   result.warnings = loaded.warnings;
-  result.part.hulls = cachedConvexHulls(loaded.mesh, hullFolder(params));
+  const std::string folder = cacheFolder(params);
+  result.part.hulls =
+      folder.empty() ? convexHulls(loaded.mesh) : cachedConvexHulls(loaded.mesh, folder);
   result.part.mesh = std::move(loaded.mesh);
   result.part.symmetries = description.symmetries();
   return result;

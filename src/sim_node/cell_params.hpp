@@ -16,11 +16,11 @@ struct CellParams
   static constexpr int kMaxParts = 500;
   static constexpr int kMaxSeed = 1000000;
 
-  std::string part;         ///< Part file.
-  int count = 12;           ///< Parts dropped at the start. In [0, kMaxParts].
-  int seed = 1;             ///< In [0, kMaxSeed].
-  double rate_hz = 0;       ///< Shots a second; 0: only when asked for. In [0, 100].
-  std::string hull_folder;  ///< Where convex hulls are kept; empty: hullFolder() decides.
+  std::string part;          ///< Part file.
+  int count = 12;            ///< Parts dropped at the start. In [0, kMaxParts].
+  int seed = 1;              ///< In [0, kMaxSeed].
+  double rate_hz = 0;        ///< Shots a second; 0: only when asked for. In [0, 100].
+  std::string cache_folder;  ///< Keeps parts' convex hulls; empty: ~/.cache/ppf_bin_picking.
   std::string base_frame = "base_link";
   std::string bin_frame = "bin";
   std::string camera_frame = "camera_optical_frame";
@@ -41,7 +41,7 @@ struct LoadedCellPart
   std::vector<std::string> warnings;  ///< About the mesh.
 };
 
-/// Loads part and mesh, and the hulls from the folder of hulls, where they are computed once.
+/// Loads part and mesh, and the hulls from the cache, into which they are written once computed.
 /// @throw InputError naming the file and the remedy. @throw std::runtime_error if the folder cannot
 ///        be written.
 LoadedCellPart loadCellPart(const CellParams& params);

@@ -58,15 +58,15 @@ TEST(CellParams, areThoseOfTheConfigFile)
 TEST(CellParams, areAllRead)
 {
   const CellParams params = read(
-      "{part: a.yaml, count: 0, seed: 7, rate_hz: 2.5, hull_folder: /h, base_frame: w, bin_frame: "
+      "{part: a.yaml, count: 0, seed: 7, rate_hz: 2.5, cache_folder: /h, base_frame: w, bin_frame: "
       "b, camera_frame: c, bin: {size_m: [1, 2, 3], wall_m: 0.5, position_m: [4, 5, 6]}, camera: "
       "{position_m: [7, 8, 9], target_m: [10, 11, 12]}, sensor: {preset: clean, width: 99}, pick: "
       "{tolerance_rel: 0.2, contact_m: 0.003, push_rel: 0.04}}");
   EXPECT_EQ(numbers(params), (std::vector<double>{0, 7, 2.5, 0.5, 0.2, 0.003, 0.04, 1, 2, 3, 4, 5,
                                                   6, 7, 8, 9, 10, 11, 12}));
-  EXPECT_EQ(
-      params.part + params.hull_folder + params.base_frame + params.bin_frame + params.camera_frame,
-      "a.yaml/hwbc");
+  EXPECT_EQ(params.part + params.cache_folder + params.base_frame + params.bin_frame +
+                params.camera_frame,
+            "a.yaml/hwbc");
   EXPECT_EQ(params.cell.sensor.camera.width, 99);
   EXPECT_EQ(params.cell.sensor.baseline_m, 0);
 }
@@ -87,17 +87,17 @@ TEST(CellParams, areCheckedLikeOthers)
   EXPECT_NE(refusal("{part: p, sensor: {preset: cheap}}").find("'cheap'"), std::string::npos);
 }
 
-TEST(LoadCellPart, keepsTheHullsInTheFolder)
+TEST(LoadCellPart, keepsTheHullsInTheCache)
 {
   const TemporaryFolder folder;
   CellParams params;
   params.part = (kPackage / "config/parts/cylinder.yaml").string();
-  params.hull_folder = folder.file("hulls");
+  params.cache_folder = folder.file("hulls");
   const LoadedCellPart loaded = loadCellPart(params);
   EXPECT_EQ(loaded.model_id, "cylinder");
   EXPECT_TRUE(loaded.part.symmetries.revolution());
   EXPECT_FALSE(loaded.part.hulls.empty());
-  EXPECT_FALSE(std::filesystem::is_empty(params.hull_folder));
+  EXPECT_FALSE(std::filesystem::is_empty(params.cache_folder));
   EXPECT_EQ(loadCellPart(params).part.hulls.size(), loaded.part.hulls.size());
   params.part = "nowhere.yaml";
   EXPECT_NE(inputError([&] { loadCellPart(params); }).find("nowhere.yaml"), std::string::npos);
