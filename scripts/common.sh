@@ -53,7 +53,8 @@ run_demo()
 {
   roslaunch ppf_bin_picking demo.launch "$@" 2>&1 | tee build/demo.log
   if grep -q 'exit code' build/demo.log; then fail "The demo failed: see build/demo.log."; fi
-  echo "The demo ended as it should: poses found, none of them wrong."
+  grep -q '^Summary: ' build/demo.log || fail "The demo ended without a summary: see build/demo.log."
+  echo "The demo ended as it should: no pick was wrong."
 }
 
 # free_port: a TCP port that nothing listens on.

@@ -145,20 +145,20 @@ void takePictures(const std::string& part_file, const std::string& folder)
 {
   const auto part = loadPart(part_file);
   const TriangleMesh mesh = loadMesh(part.mesh_file, part.unit).mesh;
-  const CellSettings cell;
-  const CellShot shot = simulateCell(cell, mesh, kPartsInBin, 1);
-  const TriangleMesh bin = binMesh(cell.bin);
-  std::vector<PlacedMesh> meshes = {
-      {&bin, shot.T_base_camera.inverse() * Eigen::Translation3d(cell.bin_position_m)}};
-  for (const PartTruth& truth : shot.parts)
-    meshes.push_back({&mesh, truth.T_camera_model});
+  const CellSettings settings;
+  SimulatedCell cell(settings, {mesh, convexHulls(mesh), part.symmetries()}, 1);
+  cell.refill(kPartsInBin);
+  const TriangleMesh bin = binMesh(settings.bin);
+  std::vector<PlacedMesh> meshes = {{&bin, cell.T_base_bin()}};
+  for (const Eigen::Isometry3d& T_base_part : cell.parts())
+    meshes.push_back({&mesh, T_base_part});
   const RayCaster world(meshes);
   std::printf("\n%d parts of %s\n", kPartsInBin, part.model_id.c_str());
   for (const std::string& preset : sensorPresetNames())
   {
     const DepthSensor sensor = sensorPreset(preset);
     const auto start = std::chrono::steady_clock::now();
-    const DepthView view = takeShot(world, sensor, Eigen::Isometry3d::Identity(), 1);
+    const DepthView view = takeShot(world, sensor, cell.T_base_camera(), 1);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     std::printf("%s: %d x %d in %.2f s\n", preset.c_str(), sensor.camera.width,
                 sensor.camera.height, time.count());

@@ -1,5 +1,5 @@
-#include "ppf_bin_picking/sim/bin_filling.hpp"
 #include "ppf_bin_picking/sim/depth_camera.hpp"
+#include "ppf_bin_picking/sim/part_pile.hpp"
 
 #include "support/depth_shots.hpp"
 #include "support/shapes.hpp"
@@ -77,7 +77,9 @@ TEST(TakeShot, givesTheSameBytesForAnyNumberOfThreads)
   const TriangleMesh bin = binMesh({});
   const TriangleMesh part = angleMesh();
   std::vector<PlacedMesh> meshes = {{&bin, Eigen::Isometry3d::Identity()}};
-  for (const auto& pose : fillBin({}, part, 8, 5))
+  PartPile pile({}, part, convexHulls(part));
+  pile.drop(8, 5);
+  for (const auto& pose : pile.poses())
     meshes.push_back({&part, pose});
   const auto shoot = [&](const std::string& preset, int threads, std::uint32_t seed)
   {

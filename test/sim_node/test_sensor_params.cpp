@@ -80,7 +80,7 @@ TEST(ReadDepthSensor, refusesWhatItCannotUse)
 TEST(ReadDepthSensor, agreesWithTheConfigFile)
 {
   const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  std::ifstream file(root / "config" / "simulated_camera.yaml");
+  std::ifstream file(root / "config" / "simulated_cell.yaml");
   ASSERT_TRUE(file);
   std::string all;
   std::string preset_alone = "sensor:\n";

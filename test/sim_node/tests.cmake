@@ -1,2 +1,2 @@
 # Tests of what the simulator's node reads.
-set(sim_node_tests test_sensor_params)
+set(sim_node_tests test_cell_params test_sensor_params)

@@ -1,0 +1,132 @@
+#include "cell_params.hpp"
+
+#include "ppf_bin_picking/io/input_error.hpp"
+#include "ppf_bin_picking/io/mesh_io.hpp"
+#include "ppf_bin_picking/io/part_io.hpp"
+#include "ppf_bin_picking/io/yaml_map.hpp"
+
+#include "sensor_params.hpp"
+
+#include <cstdlib>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+constexpr double kMaxRate_hz = 100;
+
+/// Reads values that may be left out, and requires that they lie in a range.
+class Reader
+{
+public:
+  explicit Reader(const YamlMap& map) : map_(map) {}
+
+  void number(const std::string& key, double low, double high, double& value) const
+  {
+    if (!map_.has(key)) return;
+    value = map_.number(key);
+    if (!(value >= low && value <= high))
+      refuse(key, plainDecimal(value), plainDecimal(low), plainDecimal(high));
+  }
+  void integer(const std::string& key, int low, int high, int& value) const
+  {
+    if (!map_.has(key)) return;
+    value = map_.integer(key);
+    if (value < low || value > high)
+      refuse(key, std::to_string(value), std::to_string(low), std::to_string(high));
+  }
+  void text(const std::string& key, std::string& value) const
+  {
+    if (map_.has(key)) value = map_.text(key);
+  }
+  void vector(const std::string& key, Eigen::Vector3d& value) const
+  {
+    if (map_.has(key)) value = Eigen::Vector3d(map_.numbers(key, 3).data());
+  }
+
+private:
+  [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& low,
+                           const std::string& high) const
+  {
+    throw InputError(map_.where() + ": " + key + " is " + value + ": give a value from " + low +
+                     " to " + high);
+  }
+
+  const YamlMap& map_;
+};
+
+void readBin(const YamlMap& map, CellSettings& cell)
+{
+  const Reader reader(map);
+  reader.vector("size_m", cell.bin.size_m);
+  reader.number("wall_m", 0.0001, 1, cell.bin.wall_m);
+  reader.vector("position_m", cell.bin_position_m);
+  if (!(cell.bin.size_m.minCoeff() > 0 && cell.bin.size_m.maxCoeff() <= 10))
+    throw InputError(map.where() +
+                     ": size_m is out of range: give three lengths above 0, in metres");
+}
+
+void readCamera(const YamlMap& map, CellSettings& cell)
+{
+  const Reader reader(map);
+  reader.vector("position_m", cell.camera_position_m);
+  reader.vector("target_m", cell.camera_target_m);
+}
+
+void readPick(const YamlMap& map, PickRule& rule)
+{
+  const Reader reader(map);
+  reader.number("tolerance_rel", 0.001, 1, rule.tolerance_rel);
+  reader.number("contact_m", 0.0001, 0.1, rule.contact_m);
+}
+
+std::string environment(const char* name)
+{
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// ROS's own folder of the user, or the one given.
+std::string hullFolder(const CellParams& params)
+{
+  if (!params.hull_folder.empty()) return params.hull_folder;
+  const std::string ros_home = environment("ROS_HOME");
+  return (ros_home.empty() ? environment("HOME") + "/.ros" : ros_home) + "/ppf_bin_picking/hulls";
+}
+}  // namespace
+
+CellParams readCellParams(const YAML::Node& node, const std::string& where)
+{
+  const YamlMap map(node, where,
+                    {"part", "count", "seed", "rate_hz", "hull_folder", "base_frame", "bin_frame",
+                     "camera_frame", "bin", "camera", "sensor", "pick"});
+  CellParams params;
+  params.part = map.text("part");
+  const Reader reader(map);
+  reader.integer("count", 0, CellParams::kMaxParts, params.count);
+  reader.integer("seed", 0, CellParams::kMaxSeed, params.seed);
+  reader.number("rate_hz", 0, kMaxRate_hz, params.rate_hz);
+  reader.text("hull_folder", params.hull_folder);
+  reader.text("base_frame", params.base_frame);
+  reader.text("bin_frame", params.bin_frame);
+  reader.text("camera_frame", params.camera_frame);
+  if (map.has("bin")) readBin(map.map("bin", {"size_m", "wall_m", "position_m"}), params.cell);
+  if (map.has("camera")) readCamera(map.map("camera", {"position_m", "target_m"}), params.cell);
+  if (map.has("sensor")) params.cell.sensor = readDepthSensor(map.map("sensor", depthSensorKeys()));
+  if (map.has("pick")) readPick(map.map("pick", {"tolerance_rel", "contact_m"}), params.cell.pick);
+  return params;
+}
+
+LoadedCellPart loadCellPart(const CellParams& params)
+{
+  const PartDescription description = loadPart(params.part);
+  LoadedMesh loaded = loadMesh(description.mesh_file, description.unit);
+  LoadedCellPart result;
+  result.model_id = description.model_id;
+  result.warnings = loaded.warnings;
+  result.part.hulls = cachedConvexHulls(loaded.mesh, hullFolder(params));
+  result.part.mesh = std::move(loaded.mesh);
+  result.part.symmetries = description.symmetries();
+  return result;
+}
+}  // namespace ppf_bin_picking
