@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -27,6 +28,8 @@ PickRule checked(const PickRule& rule)
     throw std::invalid_argument("the pick's tolerance_rel is out of range: give it above 0 to 1");
   if (!(rule.contact_m >= 0.0001 && rule.contact_m <= 0.1))
     throw std::invalid_argument("the pick's contact_m is out of range: give it from 0.0001 to 0.1");
+  if (!(rule.push_rel >= 0.01 && rule.push_rel <= 1))
+    throw std::invalid_argument("the pick's push_rel is out of range: give it from 0.01 to 1");
   return rule;
 }
 
@@ -39,63 +42,101 @@ Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh, const Eigen::Isometry3d& 
   return box;
 }
 
-/// Vertical columns over a part's footprint, and which part lies over it in each.
-class ColumnGrid
+/// Whether something in one box may be in the way of something in the other, which goes up.
+bool isBesideOrAbove(const Eigen::AlignedBox3d& other, Eigen::AlignedBox3d part)
+{
+  part.max().z() = std::max(part.max().z(), other.max().z());
+  return part.intersects(other);
+}
+
+/// Heights of a mesh on vertical lines, a square grid of them.
+class HeightMap
 {
 public:
-  ColumnGrid(const Eigen::AlignedBox3d& bounds, double spacing_m)
-      : low_(bounds.min().head<2>()), spacing_m_(spacing_m)
+  HeightMap(const Eigen::AlignedBox3d& bounds, double spacing_m)
+      : low_(bounds.min()), high_z_(bounds.max().z()), spacing_m_(spacing_m)
   {
     const Eigen::Vector3d size = bounds.sizes();
-    width_ = static_cast<int>(std::ceil(size.x() / spacing_m)) + 1;
-    height_ = static_cast<int>(std::ceil(size.y() / spacing_m)) + 1;
-    over_.assign(static_cast<std::size_t>(width_) * height_, kFree);
+    width = static_cast<int>(std::ceil(size.x() / spacing_m)) + 1;
+    height = static_cast<int>(std::ceil(size.y() / spacing_m)) + 1;
   }
 
-  /// Swept upwards, a part fills each column from its lowest surface on. What is higher than that
-  /// by more than contact_m is in the way.
-  void look(const RayCaster& part, const RayCaster& others, double below, double above,
-            double contact_m)
+  /// Of the lowest surface; infinity where there is none.
+  void lookUp(const RayCaster& mesh)
   {
-    for (int j = 0; j < height_; ++j)
-      for (int i = 0; i < width_; ++i)
-      {
-        const auto lowest = part.cast(place(i, j, below), Eigen::Vector3f::UnitZ());
-        if (!lowest) continue;
-        const auto highest = others.cast(place(i, j, above), -Eigen::Vector3f::UnitZ());
-        if (!highest) continue;
-        const double shared = above - highest->distance_m - (below + lowest->distance_m);
-        if (shared > contact_m) over(i, j) = static_cast<int>(highest->object);
-      }
+    fill(kNowhere,
+         [&](const Eigen::Vector2d& p) {
+           return distance(mesh, {p.x(), p.y(), low_.z() - kAway_m}, 1, low_.z() - kAway_m);
+         });
+  }
+  /// Of the highest surface; minus infinity where there is none.
+  void lookDown(const RayCaster& mesh)
+  {
+    fill(-kNowhere,
+         [&](const Eigen::Vector2d& p) {
+           return distance(mesh, {p.x(), p.y(), high_z_ + kAway_m}, -1, high_z_ + kAway_m);
+         });
   }
 
-  /// For each other part, over how many columns it lies, with others all around.
-  std::vector<std::size_t> covered(std::size_t other_count)
-  {
-    std::vector<std::size_t> columns(other_count, 0);
-    for (int j = 1; j + 1 < height_; ++j)
-      for (int i = 1; i + 1 < width_; ++i)
-        if (over(i, j) != kFree && over(i - 1, j) != kFree && over(i + 1, j) != kFree &&
-            over(i, j - 1) != kFree && over(i, j + 1) != kFree)
-          ++columns[static_cast<std::size_t>(over(i, j))];
-    return columns;
-  }
+  double at(int i, int j) const { return z_m_[static_cast<std::size_t>(j) * width + i]; }
+
+  int width = 0;
+  int height = 0;
 
 private:
-  static constexpr int kFree = -1;
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  static constexpr double kAway_m = 0.01;
 
-  int& over(int i, int j) { return over_[static_cast<std::size_t>(j) * width_ + i]; }
-  Eigen::Vector3f place(int i, int j, double z) const
+  template <class Look>
+  void fill(double nowhere, const Look& look)
   {
-    return Eigen::Vector3d(low_.x() + i * spacing_m_, low_.y() + j * spacing_m_, z).cast<float>();
+    z_m_.clear();
+    for (int j = 0; j < height; ++j)
+      for (int i = 0; i < width; ++i)
+        z_m_.push_back(
+            look({low_.x() + i * spacing_m_, low_.y() + j * spacing_m_}).value_or(nowhere));
+  }
+  static std::optional<double> distance(const RayCaster& mesh, const Eigen::Vector3d& from, int up,
+                                        double z_m)
+  {
+    const Eigen::Vector3f direction(0, 0, static_cast<float>(up));
+    const auto hit = mesh.cast(from.cast<float>(), direction);
+    if (!hit) return std::nullopt;
+    return z_m + up * static_cast<double>(hit->distance_m);
   }
 
-  Eigen::Vector2d low_;
+  Eigen::Vector3d low_;
+  double high_z_;
   double spacing_m_;
-  int width_ = 0;
-  int height_ = 0;
-  std::vector<int> over_;
+  std::vector<double> z_m_;
 };
+
+/// On how many lines one part is in another's way up, if it is moved by whole cells.
+/// @param above  Reaches `margin` cells further than `below` to each side.
+std::size_t linesShared(const HeightMap& below, const HeightMap& above, int margin,
+                        const std::pair<int, int>& move, double contact_m)
+{
+  std::size_t count = 0;
+  for (int j = 0; j < below.height; ++j)
+    for (int i = 0; i < below.width; ++i)
+      if (above.at(i + margin - move.first, j + margin - move.second) - below.at(i, j) > contact_m)
+        ++count;
+  return count;
+}
+
+/// No move, and moves all around by half of the margin and by all of it. In cells.
+std::vector<std::pair<int, int>> movesWithin(int margin)
+{
+  constexpr int kDirections = 16;
+  std::vector<std::pair<int, int>> moves = {{0, 0}};
+  for (const double way : {0.5 * margin, 1.0 * margin})
+    for (int k = 0; k < kDirections; ++k)
+    {
+      const double angle = 2 * M_PI * k / kDirections;
+      moves.emplace_back(std::lround(way * std::cos(angle)), std::lround(way * std::sin(angle)));
+    }
+  return moves;
+}
 
 std::string takenText(const PickVerdict& verdict)
 {
@@ -111,27 +152,38 @@ PickJudge::PickJudge(TriangleMesh part, const SymmetryGroup& symmetries, const P
 {
 }
 
+/// Swept upwards, the part fills each vertical line from its lowest surface on. What is higher than
+/// that is in the way, unless it can be pushed aside.
 std::optional<std::size_t> PickJudge::partOver(
     std::size_t index, const std::vector<Eigen::Isometry3d>& T_bin_parts) const
 {
-  const RayCaster part({{&part_, T_bin_parts[index]}});
+  const double push_m = rule_.push_rel * errors_.diameter();
+  const double spacing_m = std::min(rule_.contact_m / 2, push_m / 2);
+  const int margin = static_cast<int>(std::lround(push_m / spacing_m));
+  const std::vector<std::pair<int, int>> moves = movesWithin(margin);
   const Eigen::AlignedBox3d bounds = boundsOf(part_, T_bin_parts[index]);
-  double top = bounds.max().z();
-  std::vector<PlacedMesh> placed;
+  HeightMap below(bounds, spacing_m);
+  below.lookUp(RayCaster({{&part_, T_bin_parts[index]}}));
+
+  std::optional<std::size_t> over;
+  std::size_t most = 0;
   for (std::size_t other = 0; other < T_bin_parts.size(); ++other)
   {
-    if (other == index) continue;
-    placed.push_back({&part_, T_bin_parts[other]});
-    top = std::max(top, boundsOf(part_, T_bin_parts[other]).max().z());
+    const Eigen::AlignedBox3d other_bounds = boundsOf(part_, T_bin_parts[other]);
+    if (other == index || !isBesideOrAbove(other_bounds, bounds)) continue;
+    const Eigen::Vector3d reach(margin * spacing_m, margin * spacing_m, 0);
+    Eigen::AlignedBox3d around(bounds.min() - reach, bounds.max() + reach);
+    around.max().z() = other_bounds.max().z();
+    HeightMap above(around, spacing_m);
+    above.lookDown(RayCaster({{&part_, T_bin_parts[other]}}));
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (const std::pair<int, int>& move : moves)
+      least = std::min(least, linesShared(below, above, margin, move, rule_.contact_m));
+    if (least <= most) continue;
+    most = least;
+    over = other;
   }
-  ColumnGrid grid(bounds, rule_.contact_m / 2);
-  grid.look(part, RayCaster(placed), bounds.min().z() - rule_.contact_m, top + rule_.contact_m,
-            rule_.contact_m);
-  const std::vector<std::size_t> columns = grid.covered(placed.size());
-  const auto most = std::max_element(columns.begin(), columns.end());
-  if (most == columns.end() || *most == 0) return std::nullopt;
-  const auto other = static_cast<std::size_t>(most - columns.begin());
-  return other < index ? other : other + 1;
+  return over;
 }
 
 std::string PickJudge::missText(const Eigen::Isometry3d& T_bin_model,

@@ -78,6 +78,7 @@ void readPick(const YamlMap& map, PickRule& rule)
   const Reader reader(map);
   reader.number("tolerance_rel", 0.001, 1, rule.tolerance_rel);
   reader.number("contact_m", 0.0001, 0.1, rule.contact_m);
+  reader.number("push_rel", 0.01, 1, rule.push_rel);
 }
 
 std::string environment(const char* name)
@@ -113,7 +114,8 @@ CellParams readCellParams(const YAML::Node& node, const std::string& where)
   if (map.has("bin")) readBin(map.map("bin", {"size_m", "wall_m", "position_m"}), params.cell);
   if (map.has("camera")) readCamera(map.map("camera", {"position_m", "target_m"}), params.cell);
   if (map.has("sensor")) params.cell.sensor = readDepthSensor(map.map("sensor", depthSensorKeys()));
-  if (map.has("pick")) readPick(map.map("pick", {"tolerance_rel", "contact_m"}), params.cell.pick);
+  if (map.has("pick"))
+    readPick(map.map("pick", {"tolerance_rel", "contact_m", "push_rel"}), params.cell.pick);
   return params;
 }
 

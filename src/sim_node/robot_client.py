@@ -117,7 +117,7 @@ class Summary:
             return "the detector gave no answer"
         text = constant_name(GetPickablePosesResponse, answer.status)
         if answer.poses:
-            return text + ", but none of the poses could be picked"
+            text += ", but no pose could be picked"
         reasons = Counter(
             constant_name(MismatchRegion, r.reason) for r in answer.mismatching_regions
         )

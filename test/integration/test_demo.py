@@ -90,7 +90,9 @@ class DemoTest(unittest.TestCase):
         self.assertEqual(run(ScriptedCell(script, [pick(Pick.OK, 3)])).picked, 1)
         self.assertEqual(run(ScriptedCell([nothing]), further_shots=0).picked, 0)
         blocked = ScriptedCell(3 * [answer(Answer.OK, 1)], 3 * [pick(Pick.COVERED, 1)])
-        self.assertIn("none of the poses could be picked", run(blocked).text())
+        self.assertIn(
+            "OK, but no pose could be picked; mismatching regions: none", run(blocked).text()
+        )
 
     def test_says_what_is_broken(self):
         with self.assertRaisesRegex(robot.Broken, "said."):

@@ -78,8 +78,9 @@ TEST(PickJudge, obeysItsRule)
   const PickJudge strict(boxMesh(kBox), {}, {0.01, 0.002});
   EXPECT_EQ(strict.judge(at({0.0007, 0, 0.01}), parts).outcome, PickOutcome::kTaken);
   EXPECT_EQ(strict.judge(at({0.0008, 0, 0.01}), parts).outcome, PickOutcome::kNoPartThere);
-  for (const PickRule rule : {PickRule{0, 0.002}, PickRule{1.1, 0.002}, PickRule{0.1, 0},
-                              PickRule{0.1, 0.2}, PickRule{NAN, 0.002}, PickRule{0.1, NAN}})
+  for (const PickRule rule :
+       {PickRule{0, 0.002}, PickRule{1.1, 0.002}, PickRule{0.1, 0}, PickRule{0.1, 0.2},
+        PickRule{NAN, 0.002}, PickRule{0.1, NAN}, PickRule{0.1, 0.002, 0}, PickRule{0.1, 0.002, 2}})
     EXPECT_THROW(PickJudge(boxMesh(kBox), {}, rule), std::invalid_argument);
   EXPECT_THROW(PickJudge({}, {}, {}), std::invalid_argument);
 }
@@ -144,12 +145,13 @@ TEST(PickJudge, seesAPartUnderAnOverhang)
   EXPECT_EQ(judge.judge(parts[1], parts).outcome, PickOutcome::kCovered);
 }
 
-/// Boxes along the axes: one is in the way if they share more than a contact in length, width and
-/// height of the sweep.
+/// Boxes along the axes: one is in the way if it would have to be pushed far in length and in
+/// width, and is higher than a contact.
 TEST(PickJudge, agreesWithWhatBoxesShare)
 {
   const PickRule rule;
   const PickJudge judge(boxMesh(kBox), {}, rule);
+  const double push_m = rule.push_rel * kBoxDiameter;
   Random random(5);
   int covered = 0;
   int compared = 0;
@@ -157,11 +159,12 @@ TEST(PickJudge, agreesWithWhatBoxesShare)
   {
     const Eigen::Vector3d place(random.uniform(-0.08, 0.08), random.uniform(-0.06, 0.06),
                                 random.uniform(-0.03, 0.03));
-    const Eigen::Vector3d shared(kBox.x() - std::abs(place.x()), kBox.y() - std::abs(place.y()),
-                                 kBox.z() + place.z());
-    // The columns stand half a contact apart.
-    if (((shared.array() - rule.contact_m).abs() < 0.6 * rule.contact_m).any()) continue;
-    const bool in_the_way = (shared.array() > rule.contact_m).all();
+    const double aside_m = std::min(kBox.x() - std::abs(place.x()), kBox.y() - std::abs(place.y()));
+    const double higher_m = kBox.z() + place.z();
+    // The lines stand half a contact apart.
+    if (std::abs(aside_m - push_m) < rule.contact_m) continue;
+    if (std::abs(higher_m - rule.contact_m) < 1e-5) continue;
+    const bool in_the_way = aside_m > push_m && higher_m > rule.contact_m;
     const Poses parts = {at({0, 0, 0.01}), at(place + Eigen::Vector3d(0, 0, 0.01))};
     EXPECT_EQ(judge.judge(parts[0], parts).outcome,
               in_the_way ? PickOutcome::kCovered : PickOutcome::kTaken)
@@ -172,6 +175,15 @@ TEST(PickJudge, agreesWithWhatBoxesShare)
   EXPECT_GT(compared, 300);
   EXPECT_GT(covered, 50);
   EXPECT_LT(covered, compared - 50);
+}
+
+TEST(PickJudge, seesAThinPartAcross)
+{
+  // A sheet on its edge, across the middle of another that lies flat.
+  const PickJudge judge(boxMesh({0.06F, 0.04F, 0.0015F}), {}, {});
+  const Poses parts = {at({0, 0, 0.00075}), at({0, 0, 0.0215}, M_PI / 2, {1, 0, 0})};
+  EXPECT_EQ(judge.judge(parts[0], parts).outcome, PickOutcome::kCovered);
+  EXPECT_EQ(judge.judge(parts[1], parts).outcome, PickOutcome::kTaken);
 }
 
 /// The whole situation turned about the vertical and shifted gives the same judgement, but for the

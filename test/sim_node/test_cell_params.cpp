@@ -10,7 +10,7 @@ namespace ppf_bin_picking
 {
 namespace
 {
-const auto kPackage = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+const std::filesystem::path kPackage = PACKAGE_FOLDER;
 
 CellParams read(const std::string& yaml)
 {
@@ -31,7 +31,8 @@ std::vector<double> numbers(const CellParams& params)
                                 params.rate_hz,
                                 cell.bin.wall_m,
                                 cell.pick.tolerance_rel,
-                                cell.pick.contact_m};
+                                cell.pick.contact_m,
+                                cell.pick.push_rel};
   for (const Eigen::Vector3d& vector :
        {cell.bin.size_m, cell.bin_position_m, cell.camera_position_m, cell.camera_target_m})
     values.insert(values.end(), vector.data(), vector.data() + 3);
@@ -60,9 +61,9 @@ TEST(CellParams, areAllRead)
       "{part: a.yaml, count: 0, seed: 7, rate_hz: 2.5, hull_folder: /h, base_frame: w, bin_frame: "
       "b, camera_frame: c, bin: {size_m: [1, 2, 3], wall_m: 0.5, position_m: [4, 5, 6]}, camera: "
       "{position_m: [7, 8, 9], target_m: [10, 11, 12]}, sensor: {preset: clean, width: 99}, pick: "
-      "{tolerance_rel: 0.2, contact_m: 0.003}}");
-  EXPECT_EQ(numbers(params), (std::vector<double>{0, 7, 2.5, 0.5, 0.2, 0.003, 1, 2, 3, 4, 5, 6, 7,
-                                                  8, 9, 10, 11, 12}));
+      "{tolerance_rel: 0.2, contact_m: 0.003, push_rel: 0.04}}");
+  EXPECT_EQ(numbers(params), (std::vector<double>{0, 7, 2.5, 0.5, 0.2, 0.003, 0.04, 1, 2, 3, 4, 5,
+                                                  6, 7, 8, 9, 10, 11, 12}));
   EXPECT_EQ(
       params.part + params.hull_folder + params.base_frame + params.bin_frame + params.camera_frame,
       "a.yaml/hwbc");

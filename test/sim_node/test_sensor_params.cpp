@@ -79,7 +79,7 @@ TEST(ReadDepthSensor, refusesWhatItCannotUse)
 /// The file shown to users names every parameter, with the value that the preset has.
 TEST(ReadDepthSensor, agreesWithTheConfigFile)
 {
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const std::filesystem::path root = PACKAGE_FOLDER;
   std::ifstream file(root / "config" / "simulated_cell.yaml");
   ASSERT_TRUE(file);
   std::string all;

@@ -21,9 +21,13 @@ struct PickRule
   /// part's diameter (MSSD, symmetric poses being the same). In (0, 1].
   double tolerance_rel = 0.1;
 
-  /// Parts that touch do not hold each other: what shares the part's way upwards by less than this
-  /// [m], in height or across a disc of this width, is pushed aside. In [0.0001, 0.1].
+  /// What lies higher than the part meant by less than this [m] is below it or beside it: parts
+  /// that touch sink into each other a little. In [0.0001, 0.1].
   double contact_m = 0.002;
+
+  /// Parts push each other aside by up to this on their way up, relative to the part's diameter.
+  /// In [0.01, 1].
+  double push_rel = 0.05;
 };
 
 /// What became of a pick.
