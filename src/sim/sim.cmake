@@ -1,4 +1,4 @@
-# The simulated bin and depth camera: Bullet, Embree and the core's types, no ROS. Only the simulator node links it.
+# The simulated bin and depth camera: Bullet, Embree and the core's types, no ROS. Only the simulator's programs link it.
 # Embree by its files: the CMake package of Ubuntu 20.04 defines no target.
 find_path(embree_include_dir embree3/rtcore.h)
 find_library(embree_library embree3)
@@ -13,6 +13,7 @@ add_library(
   ${PROJECT_NAME}_sim
   ${sim_dir}/bin.cpp
   ${sim_dir}/bullet_shapes.cpp
+  ${sim_dir}/cell_layout.cpp
   ${sim_dir}/convex_hull.cpp
   ${sim_dir}/convex_hulls.cpp
   ${sim_dir}/cut_planes.cpp

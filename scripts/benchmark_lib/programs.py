@@ -1,0 +1,91 @@
+"""Running the package's programs, and not running them again for what is done."""
+
+import functools
+import hashlib
+import re
+import subprocess
+import threading
+import time
+
+from .cases import PACKAGE
+
+PROGRAMS = PACKAGE / "build/devel/lib/ppf_bin_picking"
+
+
+class BenchmarkError(Exception):
+    """One sentence for the person who started the benchmark."""
+
+
+def digest(*things):
+    """A name for texts, bytes and the contents of files (paths)."""
+    total = hashlib.sha256()
+    for thing in things:
+        content = thing.read_bytes() if hasattr(thing, "read_bytes") else str(thing).encode()
+        total.update(hashlib.sha256(content).digest())
+    return total.hexdigest()
+
+
+@functools.lru_cache(maxsize=None)
+def program_digest(name):
+    """Of a program and of the libraries of this package that it loads."""
+    program = PROGRAMS / name
+    if not program.is_file():
+        raise BenchmarkError(f"{program} is missing: build the package.")
+    loaded = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout
+    libraries = re.findall(r"=> (\S*libppf_bin_picking\S*)", loaded)
+    return digest(program, *[PACKAGE / library for library in sorted(libraries)])
+
+
+def run(name, *arguments):
+    """Runs a program of the package. Returns what it printed."""
+    command = [str(PROGRAMS / name), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+        raise BenchmarkError(f"{' '.join(command)} failed: {last}")
+    return done.stdout
+
+
+def stamp_of(path):
+    """The file that holds the key with which a file or folder was made."""
+    return path.with_name(path.name + ".key")
+
+
+def is_done(path, key):
+    """Whether a file or folder was made with this key."""
+    return path.exists() and stamp_of(path).is_file() and stamp_of(path).read_text() == key
+
+
+def once(path, key, make):
+    """Makes a file or folder unless that is done. Returns whether it was made now."""
+    if is_done(path, key):
+        return False
+    stamp_of(path).unlink(missing_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    make()
+    stamp_of(path).write_text(key)
+    return True
+
+
+class Progress:
+    """Lines that say how far a stage is and how long the rest takes."""
+
+    def __init__(self, stage, total):
+        self.stage, self.total, self.done, self.made = stage, total, 0, 0
+        self.start, self.lock = time.monotonic(), threading.Lock()
+        print(f"{stage}: {total}", flush=True)
+
+    def step(self, name, made):
+        """To be called after each item, from any thread. made: whether it took work."""
+        with self.lock:
+            self.done += 1
+            self.made += made
+            if not made and self.done < self.total:
+                return
+            seconds = time.monotonic() - self.start
+            left = seconds / max(1, self.made) * (self.total - self.done)
+            print(
+                f"{self.stage} {self.done}/{self.total}: {name}, {seconds:.0f} s, "
+                f"at most {left:.0f} s left",
+                flush=True,
+            )
