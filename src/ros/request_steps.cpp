@@ -4,6 +4,7 @@
 
 #include "ppf_bin_picking/ros/conversions.hpp"
 #include "ppf_bin_picking/ros/request_failed.hpp"
+#include "ppf_bin_picking/ros/result_merging.hpp"
 
 #include <algorithm>
 #include <iomanip>
@@ -14,7 +15,6 @@ namespace ppf_bin_picking_ros
 {
 namespace
 {
-using ppf_bin_picking::DetectedPose;
 using ppf_bin_picking::DetectionResult;
 using ppf_bin_picking::DetectionStatus;
 using ppf_bin_picking::Detector;
@@ -39,12 +39,14 @@ std::vector<Indices> groupsOfEqualSettings(const std::vector<LoadedPartPtr>& par
 
 DetectionResult detectGroup(const ppf_bin_picking::PointCloud& cloud,
                             const std::vector<LoadedPartPtr>& parts, const Indices& group,
-                            const Roi& roi)
+                            const Roi& roi, const double spent_s)
 {
   std::vector<const ppf_bin_picking::PpfModel*> models;
   for (const std::uint32_t index : group)
     models.push_back(&parts[index]->model);
-  DetectionResult result = Detector(parts[group.front()]->config).detect(cloud, models, roi);
+  ppf_bin_picking::DetectorConfig config = parts[group.front()]->config;
+  config.time_limit_s = remainingLimit_s(config.time_limit_s, spent_s);
+  DetectionResult result = Detector(config).detect(cloud, models, roi);
   for (auto& pose : result.poses)
     pose.model = group[pose.model];
   for (auto& region : result.regions)
@@ -56,44 +58,6 @@ DetectionResult detectGroup(const ppf_bin_picking::PointCloud& cloud,
   return result;
 }
 
-template <class Element>
-void append(std::vector<Element>& to, std::vector<Element>& from)
-{
-  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-}
-
-/// What tells more about the whole: a time limit, then poses, then points.
-int weight(const DetectionStatus status)
-{
-  const auto order = {DetectionStatus::kBadCloud, DetectionStatus::kRoiEmpty,
-                      DetectionStatus::kNoPickablePose, DetectionStatus::kOk,
-                      DetectionStatus::kTimeLimit};
-  return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
-}
-
-void merge(DetectionResult& all, DetectionResult&& next)
-{
-  const auto clusters_before = static_cast<std::int32_t>(all.clusters.size());
-  const auto shift = [&](std::int32_t& cluster)
-  { cluster = cluster < 0 ? cluster : cluster + clusters_before; };
-  for (DetectedPose& pose : next.poses)
-    shift(pose.cluster);
-  for (auto& hypothesis : next.distribution)
-    shift(hypothesis.cluster);
-  append(all.poses, next.poses);
-  append(all.regions, next.regions);
-  append(all.distribution, next.distribution);
-  append(all.clusters, next.clusters);
-  append(all.stages, next.stages);
-  all.seconds += next.seconds;
-  if (weight(next.status) > weight(all.status))
-    all.status = next.status, all.message = next.message;
-  const auto rank = [](const DetectedPose& a, const DetectedPose& b)
-  { return std::make_pair(a.reliable, a.score) > std::make_pair(b.reliable, b.score); };
-  std::stable_sort(all.poses.begin(), all.poses.end(), rank);
-  std::stable_sort(all.regions.begin(), all.regions.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-}
 }  // namespace
 
 void checkRequest(const Request& request)
@@ -149,18 +113,25 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
 DetectionResult detectParts(const ppf_bin_picking::PointCloud& cloud_camera,
                             const std::vector<LoadedPartPtr>& parts, const Roi& roi)
 {
-  std::optional<DetectionResult> all;
+  std::vector<const ppf_bin_picking::PpfModel*> models;
+  for (const LoadedPartPtr& part : parts)
+    models.push_back(&part->model);
+  std::vector<DetectionResult> results;
+  double spent_s = 0;
   for (const Indices& group : groupsOfEqualSettings(parts))
   {
-    DetectionResult result = detectGroup(cloud_camera, parts, group, roi);
-    if (result.status == DetectionStatus::kBadCloud)
-      throw RequestFailed(Response::BAD_CLOUD, result.message);
-    if (all)
-      merge(*all, std::move(result));
-    else
-      all = std::move(result);
+    results.push_back(detectGroup(cloud_camera, parts, group, roi, spent_s));
+    spent_s += results.back().seconds;
+    if (results.back().status == DetectionStatus::kBadCloud)
+      throw RequestFailed(Response::BAD_CLOUD, results.back().message);
   }
-  return *all;
+  return merged(std::move(results), models);
+}
+
+double remainingLimit_s(const double limit_s, const double spent_s)
+{
+  constexpr double kLeast_s = 1e-9;  // 0 would be no limit
+  return limit_s > 0 ? std::max(limit_s - spent_s, kLeast_s) : 0;
 }
 
 std::int16_t toStatus(const DetectionStatus status)

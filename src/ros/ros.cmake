@@ -11,6 +11,7 @@ add_library(
   src/ros/part_store.cpp
   src/ros/pose_server.cpp
   src/ros/request_steps.cpp
+  src/ros/result_merging.cpp
   src/ros/result_publisher.cpp
   src/ros/server_diagnostics.cpp
   src/ros/simplified_mesh.cpp)

@@ -10,6 +10,7 @@ import xmlrpc.client
 import rosgraph
 import rospy
 import rostest
+from ppf_bin_picking.msg import MismatchRegion
 from ppf_bin_picking.srv import GetPickablePosesRequest as Request
 from ppf_bin_picking.srv import GetPickablePosesResponse as Response
 
@@ -48,6 +49,24 @@ class LimitsTest(unittest.TestCase):
         answer = call()
         self.assertEqual(answer.status, Response.TIME_LIMIT, answer.message)
         self.assertIn("time_limit_s", answer.message)
+
+    def test_parts_of_different_settings_do_not_share_a_place(self):
+        self.detector = RunningDetector(parts=["steps"])
+        for number in (0, 1):
+            folder = os.path.join(self.detector.folder, str(number))
+            text = "unit: mm\nmodel_id: other_%d\ndetector: {min_score: 0.%d}\n" % (
+                number,
+                48 + number,
+            )
+            self.detector.cell["parts"].append(box_scenes.write_part(folder, "steps", text))
+        self.detector.start().wait_ready()
+        self.send_scan()
+        answer = call(include_mismatching=True)
+        self.assertEqual(answer.status, Response.OK, answer.message)
+        self.assertEqual(answer.message, "1 reliable poses")
+        self.assertEqual(len(answer.poses), 1)
+        reasons = [region.reason for region in answer.mismatching_regions]
+        self.assertEqual(reasons.count(MismatchRegion.OVERLAP), 2)
 
     def test_not_ready_while_parts_are_loaded(self):
         self.detector = RunningDetector(parts=["steps"])

@@ -62,6 +62,15 @@ TEST(LimitedDifference, standsAnyStamp)
   EXPECT_EQ(limitedDifference(ros::Time(), late), ros::Duration(-2e9));
 }
 
+TEST(RemainingLimit, neverTurnsIntoNoLimit)
+{
+  EXPECT_EQ(remainingLimit_s(2.0, 0.5), 1.5);
+  EXPECT_GT(remainingLimit_s(2.0, 2.0), 0);
+  EXPECT_LT(remainingLimit_s(2.0, 7.0), 1e-6);
+  EXPECT_GT(remainingLimit_s(2.0, 7.0), 0);
+  EXPECT_EQ(remainingLimit_s(0, 7.0), 0);
+}
+
 TEST(ToStatus, hasAConstantForEachEnd)
 {
   using ppf_bin_picking::DetectionStatus;

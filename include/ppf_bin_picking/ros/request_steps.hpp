@@ -30,12 +30,16 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
                                       const std::vector<LoadedPartPtr>& parts);
 
 /// Finds the parts. Those of equal settings compete for the cloud; parts of other settings are
-/// looked for on their own.
+/// looked for on their own, and merged() decides where two of them stand in one place. Time limits
+/// count over all detections.
 /// @return Poses name the parts by their index; reliable ones first, best first.
 /// @throw RequestFailed (BAD_CLOUD) if the cloud cannot be worked on.
 ppf_bin_picking::DetectionResult detectParts(
     const ppf_bin_picking::PointCloud& cloud_camera, const std::vector<LoadedPartPtr>& parts,
     const std::optional<ppf_bin_picking::RegionOfInterest>& roi);
+
+/// What is left of a time limit: above 0, as 0 means no limit, which stays.
+double remainingLimit_s(double limit_s, double spent_s);
 
 /// The status constant of GetPickablePoses.
 std::int16_t toStatus(ppf_bin_picking::DetectionStatus status);
