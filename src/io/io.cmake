@@ -27,6 +27,7 @@ add_library(
   ${io_dir}/length_unit.cpp
   ${io_dir}/mesh_io.cpp
   ${io_dir}/model_io.cpp
+  ${io_dir}/package_path.cpp
   ${io_dir}/part_io.cpp
   ${io_dir}/ply_check.cpp
   ${io_dir}/png_check.cpp

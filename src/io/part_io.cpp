@@ -1,14 +1,11 @@
 #include "ppf_bin_picking/io/part_io.hpp"
 
 #include "ppf_bin_picking/io/config_io.hpp"
-#include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <string>
 
 namespace ppf_bin_picking
@@ -19,7 +16,6 @@ namespace
 constexpr double kUnitTolerance = 1e-3;
 constexpr int kMaxTurns = 120;               // turns of a discrete symmetry until the part is back
 constexpr double kTurnTolerance_deg = 0.01;  // of the angle: 51.43 is a seventh
-constexpr std::size_t kMaxManifestBytes = 1 << 20;
 
 Eigen::Vector3d vectorOf(const YamlMap& map, const std::string& key)
 {
@@ -70,15 +66,8 @@ Pick readPick(const YamlMap& map, double metres_per_unit)
 std::string resolved(const std::string& given, const std::string& part_file, const std::string& key,
                      const PackageFinder& finder)
 {
-  const std::string scheme = "package://";
-  if (given.rfind(scheme, 0) != 0) return (fs::path(part_file).parent_path() / given).string();
-  const std::size_t slash = std::min(given.find('/', scheme.size()), given.size());
-  const std::string package = given.substr(scheme.size(), slash - scheme.size());
-  const std::string folder = finder(package);
-  if (folder.empty())
-    throw InputError(part_file + ": " + key + " names the package '" + package +
-                     "', which is not found: source the workspace that holds it, or give a path");
-  return folder + given.substr(slash);
+  if (isPackagePath(given)) return resolvedPackagePath(given, part_file + ": " + key, finder);
+  return (fs::path(part_file).parent_path() / given).string();
 }
 
 std::string idOf(const std::string& path)
@@ -86,21 +75,6 @@ std::string idOf(const std::string& path)
   const fs::path full = fs::absolute(path);
   return full.filename() == "part.yaml" ? full.parent_path().filename().string()
                                         : full.stem().string();
-}
-
-bool isPackage(const fs::path& folder, const std::string& package)
-{
-  std::error_code error;
-  if (!fs::is_regular_file(folder / "package.xml", error)) return false;
-  try
-  {
-    const std::string manifest = readFile((folder / "package.xml").string(), kMaxManifestBytes);
-    return manifest.find("<name>" + package + "</name>") != std::string::npos;
-  }
-  catch (const InputError&)
-  {
-    return false;
-  }
 }
 
 void readSymmetries(const YamlMap& map, PartDescription& part)
@@ -127,20 +101,6 @@ DetectorConfig PartDescription::adapted(const DetectorConfig& config) const
   for (const auto& [key, value] : detector)
     settings[key] = value;
   return withSettings(config, settings, source + ": detector");
-}
-
-std::string findPackage(const std::string& package)
-{
-  const char* roots = std::getenv("ROS_PACKAGE_PATH");
-  std::istringstream list(roots == nullptr ? "" : roots);
-  for (std::string root; std::getline(list, root, ':');)
-  {
-    if (isPackage(root, package)) return root;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(root, error))
-      if (isPackage(entry.path(), package)) return entry.path().string();
-  }
-  return {};
 }
 
 PartDescription loadPart(const std::string& path, const PackageFinder& finder)

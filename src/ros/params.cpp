@@ -2,7 +2,7 @@
 
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/key_check.hpp"
-#include "ppf_bin_picking/io/part_io.hpp"
+#include "ppf_bin_picking/io/package_path.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include <algorithm>
@@ -74,17 +74,10 @@ std::string textOrEmpty(const YamlMap& map, const std::string& key)
 /// @param text  An absolute path, or package://name/path.
 std::string partFile(const std::string& text, const std::string& where)
 {
-  const std::string scheme = "package://";
   if (text.front() == '/') return text;
-  if (text.rfind(scheme, 0) != 0)
-    throw InputError(where + " is '" + text + "': give an absolute path, or package://name/path");
-  const std::size_t slash = std::min(text.find('/', scheme.size()), text.size());
-  const std::string package = text.substr(scheme.size(), slash - scheme.size());
-  const std::string folder = ppf_bin_picking::findPackage(package);
-  if (folder.empty())
-    throw InputError(where + " is '" + text + "': package '" + package +
-                     "' is not found; source its workspace, or give an absolute path");
-  return folder + text.substr(slash);
+  if (ppf_bin_picking::isPackagePath(text))
+    return ppf_bin_picking::resolvedPackagePath(text, where);
+  throw InputError(where + " is '" + text + "': give an absolute path, or package://name/path");
 }
 
 std::vector<std::string> readParts(const YamlMap& map)

@@ -119,16 +119,5 @@ TEST_F(PartFile, findsMeshesOfPackages)
   expectHolds(inputError([&] { loadPart(path, [](const std::string&) { return ""; }); }),
               "mesh names the package 'robots', which is not found");
 }
-
-TEST_F(PartFile, findsPackagesAlongThePath)
-{
-  folder_.write("ws/checkout/package.xml", "<package><name>robots</name></package>");
-  folder_.write("other/package.xml", "<package><name>tools</name></package>");
-  const std::string roots = "/none:" + folder_.file("other") + ":" + folder_.file("ws");
-  ASSERT_EQ(setenv("ROS_PACKAGE_PATH", roots.c_str(), 1), 0);
-  EXPECT_EQ(findPackage("robots"), folder_.file("ws/checkout"));
-  EXPECT_EQ(findPackage("tools"), folder_.file("other"));
-  EXPECT_EQ(findPackage("nobody"), "");
-}
 }  // namespace
 }  // namespace ppf_bin_picking

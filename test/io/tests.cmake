@@ -7,6 +7,7 @@ set(io_tests
     test_key_check
     test_mesh_io
     test_model_io
+    test_package_path
     test_part_io
     test_result_io
     test_shipped_parts

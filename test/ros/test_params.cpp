@@ -143,8 +143,8 @@ const BadTree kBadTrees[] = {
     {"relativePart", [](XmlRpcValue& t) { t["parts"] = "pin.yaml"; },
      "/cell/pose_detector: parts is 'pin.yaml': give an absolute path, or package://name/path"},
     {"partOfNoPackage", [](XmlRpcValue& t) { t["parts"] = "package://no_such_one/pin.yaml"; },
-     "/cell/pose_detector: parts is 'package://no_such_one/pin.yaml': package 'no_such_one' is not "
-     "found; source its workspace, or give an absolute path"},
+     "/cell/pose_detector: parts names the package 'no_such_one', which is not found: source the "
+     "workspace that holds it, or give an absolute path"},
     {"detectorIsNoMapping", [](XmlRpcValue& t) { t["detector"] = 5; },
      "/cell/pose_detector/detector is '5': give 'key: value' lines"},
     {"regionInsideOut",

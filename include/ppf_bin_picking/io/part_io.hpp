@@ -5,10 +5,10 @@
 #include "ppf_bin_picking/core/symmetry.hpp"
 
 #include "ppf_bin_picking/io/length_unit.hpp"
+#include "ppf_bin_picking/io/package_path.hpp"
 
 #include <Eigen/Geometry>
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -41,13 +41,6 @@ struct PartDescription
   /// Never throws for a description that loadPart() returned.
   SymmetryGroup symmetries() const { return {symmetries_discrete, symmetries_continuous}; }
 };
-
-/// The folder of a ROS package; empty if there is none of that name.
-using PackageFinder = std::function<std::string(const std::string& package)>;
-
-/// A finder that looks along ROS_PACKAGE_PATH, so that no ROS library is needed: each folder on it,
-/// and each folder right below these, whose package.xml has that name.
-std::string findPackage(const std::string& package);
 
 /// Reads a part file. `mesh` (default model.stl) and `model` are relative to the file's folder, or
 /// `package://name/path`.
