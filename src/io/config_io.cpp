@@ -84,7 +84,12 @@ DetectorConfig withSettings(DetectorConfig config, const YAML::Node& settings,
 
 DetectorConfig loadDetectorConfig(const std::string& path)
 {
-  return withSettings(DetectorConfig(), loadYaml(path), path);
+  const YAML::Node settings = loadYaml(path);
+  if (settings.IsMap() && settings["detector"])
+    throw InputError(path +
+                     " holds the parameters of a node, with the settings below 'detector': give a "
+                     "file with the settings at its top, such as config/detector.yaml");
+  return withSettings(DetectorConfig(), settings, path);
 }
 
 std::string toYaml(const DetectorConfig& config)

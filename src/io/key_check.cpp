@@ -3,29 +3,44 @@
 #include "ppf_bin_picking/io/input_error.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-/// Levenshtein distance.
+constexpr std::size_t kMaxListedNames = 12;
+
+/// Letters to insert, delete, replace or exchange with their neighbour (optimal string alignment).
 std::size_t editDistance(const std::string& a, const std::string& b)
 {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j)
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+    for (std::size_t j = 0; j <= b.size(); ++j)
     {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+      if (i == 0 || j == 0)
+      {
+        d[i][j] = i + j;
+        continue;
+      }
+      const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      d[i][j] = std::min({replaced, d[i - 1][j] + 1, d[i][j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
-  }
-  return row.back();
+  return d[a.size()][b.size()];
+}
+
+std::string remedyFor(const std::string& key, const std::vector<std::string>& names)
+{
+  if (names.empty()) return "remove it";
+  const std::string similar = similarName(key, names);
+  if (!similar.empty()) return "the nearest known name is '" + similar + "'";
+  if (names.size() > kMaxListedNames) return "no known name is like it";
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  return "known are " + list;
 }
 }  // namespace
 
@@ -37,14 +52,18 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   return nearest == names.end() ? std::string() : *nearest;
 }
 
+std::string similarName(const std::string& word, const std::vector<std::string>& names)
+{
+  const std::string nearest = nearestName(word, names);
+  const std::size_t limit = std::max(word.size(), nearest.size()) / 3;
+  return editDistance(word, nearest) <= limit ? nearest : std::string();
+}
+
 void requireKnownKey(const std::string& where, const std::string& key,
                      const std::vector<std::string>& names)
 {
   if (std::find(names.begin(), names.end(), key) != names.end()) return;
-  const std::string nearest = nearestName(key, names);
-  throw InputError(
-      where + ": unknown key '" + key + "'" +
-      (nearest.empty() ? ": remove it" : ": the nearest known name is '" + nearest + "'"));
+  throw InputError(where + ": unknown key '" + key + "': " + remedyFor(key, names));
 }
 
 void wrongType(const std::string& where, const std::string& key, const std::string& value,

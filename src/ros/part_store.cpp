@@ -134,8 +134,11 @@ std::string PartStore::failureOf(const std::string& model_id) const
   for (const LoadedPartPtr& part : loaded_)
     ids.push_back(part->view.id);
   if (ids.empty()) return "Part '" + model_id + "' is unknown, as no part is loaded";
-  return "Part '" + model_id + "' is unknown: the nearest loaded part is '" +
-         ppf_bin_picking::nearestName(model_id, ids) + "' (loaded: " + joined(ids) + ")";
+  const std::string similar = ppf_bin_picking::similarName(model_id, ids);
+  return "Part '" + model_id + "' is unknown: " +
+         (similar.empty() ? "ask for a loaded one"
+                          : "the nearest loaded part is '" + similar + "'") +
+         " (loaded: " + joined(ids) + ")";
 }
 
 std::vector<std::string> PartStore::failures() const

@@ -57,6 +57,16 @@ TEST(DetectorConfigFile, namesAMisspeltKey)
             "f.yaml: unknown key 'lamda': the nearest known name is 'lambda'");
 }
 
+TEST(DetectorConfigFile, isNotTheParametersOfANode)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("cell.yaml", "detector: {lambda: 0.5}\n");
+  EXPECT_EQ(inputError([&] { loadDetectorConfig(path); }),
+            path +
+                " holds the parameters of a node, with the settings below 'detector': give a "
+                "file with the settings at its top, such as config/detector.yaml");
+}
+
 TEST(DetectorConfigFile, namesAMistypedValue)
 {
   EXPECT_EQ(configError("lambda: '1'"),

@@ -22,6 +22,20 @@ TEST(NearestName, isEmptyWithoutNames)
   EXPECT_EQ(nearestName("lambda", {}), "");
 }
 
+TEST(SimilarName, isOneThatCanBeMeant)
+{
+  const std::vector<std::string> names = {"width", "step_rel", "unit", "min_score", "fx"};
+  EXPECT_EQ(similarName("stepsrel", names), "step_rel");
+  EXPECT_EQ(similarName("unti", names), "unit");  // an exchange of neighbours is one edit
+  EXPECT_EQ(similarName("mn_scor", names), "min_score");
+  EXPECT_EQ(similarName("units", names), "unit");
+  EXPECT_EQ(similarName("detector", names), "");
+  EXPECT_EQ(similarName("mesh", names), "");
+  EXPECT_EQ(similarName("x", names), "");
+  EXPECT_EQ(similarName("", names), "");
+  EXPECT_EQ(similarName("unit", {}), "");
+}
+
 TEST(RequireKnownKey, namesTheKeyAndItsNeighbour)
 {
   EXPECT_NO_THROW(requireKnownKey("f.yaml", "unit", {"mesh", "unit"}));
@@ -32,6 +46,18 @@ TEST(RequireKnownKey, namesTheKeyAndItsNeighbour)
             "f.yaml: unknown key 'unti': the nearest known name is 'unit'");
   EXPECT_EQ(inputError([] { requireKnownKey("f.yaml", "unti", {}); }),
             "f.yaml: unknown key 'unti': remove it");
+}
+
+TEST(RequireKnownKey, listsFewNamesWhereNoneIsNear)
+{
+  EXPECT_EQ(inputError(
+                [] {
+                  requireKnownKey("f.yaml", "colour", {"mesh", "unit"});
+                }),
+            "f.yaml: unknown key 'colour': known are mesh, unit");
+  EXPECT_EQ(
+      inputError([] { requireKnownKey("f.yaml", "colour", std::vector<std::string>(13, "mesh")); }),
+      "f.yaml: unknown key 'colour': no known name is like it");
 }
 }  // namespace
 }  // namespace ppf_bin_picking

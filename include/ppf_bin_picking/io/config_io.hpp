@@ -24,7 +24,7 @@ DetectorConfig withSettings(DetectorConfig config, const YAML::Node& settings,
                             const std::string& where);
 
 /// Reads a file like config/detector.yaml; what it leaves out has its default.
-/// @throw InputError as withSettings().
+/// @throw InputError as withSettings(), and for a node's parameters.
 DetectorConfig loadDetectorConfig(const std::string& path);
 
 /// Every field as a `name: value` line.

@@ -9,8 +9,12 @@ namespace ppf_bin_picking
 /// The name with the smallest edit distance to a word; empty if there are no names.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
+/// nearestName() if it can be meant: at most a third of the letters differ; otherwise empty.
+std::string similarName(const std::string& word, const std::vector<std::string>& names);
+
 /// @param where  The file or parameter namespace that the key stands in.
-/// @throw InputError naming the key and its nearest known name, unless it is one of the names.
+/// @throw InputError unless the key is one of the names: it names the key and a similar name;
+///        without one, all names if they are few.
 void requireKnownKey(const std::string& where, const std::string& key,
                      const std::vector<std::string>& names);
 

@@ -42,7 +42,7 @@ private:
 /// @param tree   What the parameter server holds below the node's name: a struct, or invalid if it
 ///               holds nothing.
 /// @param where  The node's name; begins every message.
-/// @throw ParamError naming each unknown key with its nearest known name, each value of a wrong
+/// @throw ParamError naming each unknown key with a similar known name, each value of a wrong
 ///        type or out of range, and missing parts.
 ServerParams readServerParams(const XmlRpc::XmlRpcValue& tree, const std::string& where);
 
