@@ -101,8 +101,12 @@ bool PoseServer::onRequest(const Request& request, Response& response)
     return true;
   }
   answer(request, response);
-  ROS_INFO_STREAM(private_nh_.getNamespace()
-                  << ": status " << response.status << ": " << response.message);
+  const std::string outcome = private_nh_.getNamespace() + ": status " +
+                              std::to_string(response.status) + ": " + response.message;
+  if (response.status < Response::OK)
+    ROS_WARN_STREAM(outcome);
+  else
+    ROS_INFO_STREAM(outcome);
   const std::lock_guard<std::mutex> outcome_lock(outcome_mutex_);
   last_outcome_ = {response.status, response.message};
   return true;
@@ -179,7 +183,11 @@ sensor_msgs::PointCloud2ConstPtr PoseServer::nextCloud(const Request& request) c
   const std::uint64_t received_before = clouds_.received();
   const sensor_msgs::PointCloud2ConstPtr cloud =
       clouds_.waitForNext(ros::Time::now(), steadyDeadline(timeout_s));
-  if (cloud) return cloud;
+  if (cloud)
+  {
+    checkNotAhead(cloud->header.stamp, ros::Time::now());
+    return cloud;
+  }
   const std::uint64_t older = clouds_.received() - received_before;
   std::ostringstream text;
   text << "No cloud stamped after the call came on " << cloud_subscriber_.getTopic() << " within "

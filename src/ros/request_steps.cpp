@@ -80,12 +80,25 @@ void checkAge(const Request& request, const ros::Time& stamp, const ros::Time& n
     throw RequestFailed(Response::CLOUD_TOO_OLD,
                         "The newest cloud has no stamp, so its age is unknown: let the camera's "
                         "driver stamp its clouds, or ask without max_age");
+  checkNotAhead(stamp, now);
   const double age_s = now.toSec() - stamp.toSec();
   if (age_s <= request.max_age.toSec()) return;
   std::ostringstream text;
   text << std::fixed << std::setprecision(3) << "The newest cloud is " << age_s
        << " s old, max_age is " << request.max_age.toSec()
        << " s: check the camera, or ask for the NEXT cloud";
+  throw RequestFailed(Response::CLOUD_TOO_OLD, text.str());
+}
+
+void checkNotAhead(const ros::Time& stamp, const ros::Time& now)
+{
+  constexpr double kTolerance_s = 0.1;  // clocks of two machines, and steps of a bag's clock
+  const double ahead_s = stamp.toSec() - now.toSec();
+  if (ahead_s <= kTolerance_s) return;
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << "The cloud is stamped " << ahead_s
+       << " s in the future, so its age is unknown: set the clock of the camera's driver by this "
+          "computer's, or ask for the LATEST cloud without max_age";
   throw RequestFailed(Response::CLOUD_TOO_OLD, text.str());
 }
 

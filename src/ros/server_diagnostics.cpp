@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iomanip>
+#include <sstream>
 
 namespace ppf_bin_picking_ros
 {
@@ -19,6 +21,13 @@ std::uint8_t levelOf(const std::int16_t status)
                                                         Response::TF_FAILED, Response::BAD_CLOUD};
   const bool is_hindered = std::find(hindered.begin(), hindered.end(), status) != hindered.end();
   return is_hindered ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+}
+
+std::string lastCloudCame(const double age_s)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "The last cloud came " << age_s << " s ago";
+  return text.str();
 }
 }  // namespace
 
@@ -44,7 +53,7 @@ void PoseServer::reportInput(DiagnosticStatusWrapper& status)
   if (cloud_subscriber_.getNumPublishers() == 0)
     status.summary(DiagnosticStatus::WARN, "Nobody publishes " + cloud_subscriber_.getTopic());
   else
-    status.summary(DiagnosticStatus::OK, age_s ? "Clouds come" : "No cloud yet");
+    status.summary(DiagnosticStatus::OK, age_s ? lastCloudCame(*age_s) : "No cloud yet");
   status.add("clouds received", clouds_.received());
   if (age_s) status.add("seconds since the last cloud", *age_s);
 }

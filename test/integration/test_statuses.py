@@ -56,10 +56,9 @@ class StatusesTest(unittest.TestCase):
 
     @staticmethod
     def answer_on(stamp, request):
-        """An answer, unless it is on an older cloud."""
+        """An answer, unless it is on another cloud."""
         answer = call(**request)
-        on_older = answer.header.stamp < stamp
-        return None if on_older or answer.status == Response.NO_CLOUD else answer
+        return answer if answer.header.stamp == stamp else None
 
     def expect(self, answer, status, *words):
         self.assertEqual(answer.status, status, answer.message)
@@ -145,6 +144,25 @@ class StatusesTest(unittest.TestCase):
         self.expect_good()
         answer = call(max_age=0.000001)
         self.expect(answer, Response.CLOUD_TOO_OLD, "max_age", "NEXT")
+
+    def test_cloud_too_old_where_the_cameras_clock_is_ahead(self):
+        ahead = rospy.Duration(5)
+        self.good.header.stamp = rospy.Time.now() + ahead
+        self.source.send(self.good)
+        wait_until(lambda: "in the future" in call(max_age=1).message, "the cloud is there")
+        answer = call(max_age=1)
+        self.expect(answer, Response.CLOUD_TOO_OLD, "in the future", "clock")
+        answers = []
+        waiting = threading.Thread(
+            target=lambda: answers.append(call(acquisition=Request.NEXT, timeout=100))
+        )
+        waiting.start()
+        while waiting.is_alive():
+            self.good.header.stamp = rospy.Time.now() + ahead
+            self.source.send(self.good)
+            waiting.join(0.1)
+        self.expect(answers[0], Response.CLOUD_TOO_OLD, "in the future", "clock")
+        self.expect_good()
 
     def test_tf_failed_for_an_unknown_target_frame(self):
         answer = self.answer(self.good, target_frame="nowhere")

@@ -152,7 +152,7 @@ class StreamTest(unittest.TestCase):
 
         call()
         for name, words in [
-            ("pose_detector: input", "Clouds come"),
+            ("pose_detector: input", "The last cloud came "),
             ("pose_detector: parts", "All parts are loaded"),
             ("pose_detector: last request", "reliable"),
         ]:

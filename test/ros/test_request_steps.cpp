@@ -50,8 +50,19 @@ TEST(CheckAge, countsOnTheRosClock)
   request.max_age = ros::Duration(5.0);
   EXPECT_EQ(status(ros::Time(95)), +Response::OK);
   EXPECT_EQ(status(ros::Time(94.9)), +Response::CLOUD_TOO_OLD);
-  EXPECT_EQ(status(ros::Time(101)), +Response::OK);
-  EXPECT_EQ(status(ros::Time()), +Response::CLOUD_TOO_OLD);  // no stamp
+  EXPECT_EQ(status(ros::Time(100.09)), +Response::OK);
+  EXPECT_EQ(status(ros::Time(100.2)), +Response::CLOUD_TOO_OLD);  // its clock is ahead
+  EXPECT_EQ(status(ros::Time()), +Response::CLOUD_TOO_OLD);       // no stamp
+}
+
+TEST(CheckNotAhead, allowsForClocksThatDifferALittle)
+{
+  const auto status = [&](const ros::Time& stamp)
+  { return statusOf([&] { checkNotAhead(stamp, ros::Time(100)); }); };
+  EXPECT_EQ(status(ros::Time()), +Response::OK);
+  EXPECT_EQ(status(ros::Time(100.09)), +Response::OK);
+  EXPECT_EQ(status(ros::Time(100.11)), +Response::CLOUD_TOO_OLD);
+  EXPECT_EQ(status(ros::Time(0xFFFFFFFF, 0)), +Response::CLOUD_TOO_OLD);
 }
 
 TEST(LimitedDifference, standsAnyStamp)

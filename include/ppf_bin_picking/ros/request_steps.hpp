@@ -19,10 +19,13 @@ namespace ppf_bin_picking_ros
 /// @throw RequestFailed (BAD_REQUEST) naming the field that is out of range.
 void checkRequest(const Request& request);
 
-/// @throw RequestFailed (CLOUD_TOO_OLD) if the request limits the age and the cloud is older, or
-/// has
-///        no stamp.
+/// @throw RequestFailed (CLOUD_TOO_OLD) if the request limits the age and the cloud is older, has
+///        no stamp or fails checkNotAhead().
 void checkAge(const Request& request, const ros::Time& stamp, const ros::Time& now);
+
+/// A camera's clock that is ahead makes any cloud look new.
+/// @throw RequestFailed (CLOUD_TOO_OLD) if the stamp lies more than 0.1 s in the future.
+void checkNotAhead(const ros::Time& stamp, const ros::Time& now);
 
 /// @return The message as points, with normals if the settings of a part use them.
 /// @throw RequestFailed (BAD_CLOUD) with the reason.
