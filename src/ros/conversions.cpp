@@ -52,15 +52,8 @@ std::string fieldProblem(const PointCloud2& cloud, const std::string& name)
   return {};
 }
 
-std::string sizeProblem(const PointCloud2& cloud, const int max_points)
+std::string sizeProblem(const PointCloud2& cloud)
 {
-  const std::uint64_t points = std::uint64_t{cloud.width} * cloud.height;
-  if (points == 0)
-    return "The cloud has no points (width " + std::to_string(cloud.width) + ", height " +
-           std::to_string(cloud.height) + "): check the camera";
-  if (points > static_cast<std::uint64_t>(max_points))
-    return "The cloud has " + std::to_string(points) + " points, more than max_points " +
-           std::to_string(max_points) + ": crop it or raise detector/max_points";
   const std::uint64_t row_bytes = std::uint64_t{cloud.width} * cloud.point_step;
   if (cloud.row_step < row_bytes)
     return "The cloud's row_step is " + std::to_string(cloud.row_step) + ", less than width " +
@@ -110,7 +103,7 @@ Eigen::Vector3f unitOrZero(const Eigen::Vector3f& normal)
 }
 }  // namespace
 
-std::string cloudProblem(const PointCloud2& cloud, const ppf_bin_picking::DetectorConfig& config)
+std::string messageProblem(const PointCloud2& cloud, const ppf_bin_picking::DetectorConfig& config)
 {
   if (cloud.header.frame_id.empty())
     return "The cloud has no frame: set header.frame_id in the camera's driver";
@@ -121,13 +114,13 @@ std::string cloudProblem(const PointCloud2& cloud, const ppf_bin_picking::Detect
   if (config.use_cloud_normals && hasAnyNormalField(cloud))
     for (const char* name : kNormalFields)
       if (const std::string problem = fieldProblem(cloud, name); !problem.empty()) return problem;
-  return sizeProblem(cloud, config.max_points);
+  return sizeProblem(cloud);
 }
 
 ppf_bin_picking::PointCloud toPointCloud(const PointCloud2& cloud,
                                          const ppf_bin_picking::DetectorConfig& config)
 {
-  if (const std::string problem = cloudProblem(cloud, config); !problem.empty())
+  if (const std::string problem = messageProblem(cloud, config); !problem.empty())
     throw std::invalid_argument(problem);
   ppf_bin_picking::PointCloud converted;
   converted.width = cloud.width;

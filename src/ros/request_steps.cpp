@@ -107,14 +107,12 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
 {
   ppf_bin_picking::DetectorConfig config = parts.front()->config;
   for (const LoadedPartPtr& part : parts)
-  {
     config.use_cloud_normals |= part->config.use_cloud_normals;
-    config.max_points = std::max(config.max_points, part->config.max_points);
-  }
-  const std::string problem = cloudProblem(cloud, config);
+  const std::string problem = messageProblem(cloud, config);
   if (!problem.empty()) throw RequestFailed(Response::BAD_CLOUD, problem);
   ppf_bin_picking::PointCloud points = toPointCloud(cloud, config);
-  if (std::none_of(points.points.begin(), points.points.end(),
+  if (points.size() > 0 &&
+      std::none_of(points.points.begin(), points.points.end(),
                    [](const Eigen::Vector3f& point) { return point.allFinite(); }))
     throw RequestFailed(Response::BAD_CLOUD,
                         "None of the cloud's " + std::to_string(points.size()) +

@@ -224,10 +224,11 @@ def set_empty(message):
 
 def set_too_large(message):
     message.width, message.height, message.row_step = 5000001, 1, 12 * 5000001
+    message.data = bytes(message.row_step)
 
 
 BAD_CLOUDS = [
-    ("empty", set_empty, ["no points", "check the camera"]),
+    ("empty", set_empty, ["no points", "check that the camera"]),
     ("nothing measured", set_nothing_measured, ["NaN", "check the camera"]),
     ("no x", lambda m: m.fields.pop(0), ["field x is missing"]),
     ("no fields", lambda m: m.fields.clear(), ["field x is missing"]),

@@ -14,16 +14,16 @@
 namespace ppf_bin_picking_ros
 {
 /// Checks everything the conversion relies on: frame, byte order, fields and their types, steps,
-/// length of the data, number of points. Looks at no point.
-/// @return Empty if the cloud is usable, otherwise one sentence that names the field and the
+/// length of the data. The number of points and the points themselves are the detector's matter.
+/// @return Empty if the cloud can be converted, otherwise one sentence that names the field and the
 /// remedy.
-std::string cloudProblem(const sensor_msgs::PointCloud2& cloud,
-                         const ppf_bin_picking::DetectorConfig& config);
+std::string messageProblem(const sensor_msgs::PointCloud2& cloud,
+                           const ppf_bin_picking::DetectorConfig& config);
 
 /// Copies the points, and the normals if config.use_cloud_normals is set and the cloud has them.
 /// Fields may stand in any order and with any padding. Non-finite points stay as they are.
 /// @return Points in the message's frame [m].
-/// @throw std::invalid_argument with the sentence of cloudProblem.
+/// @throw std::invalid_argument with the sentence of messageProblem.
 ppf_bin_picking::PointCloud toPointCloud(const sensor_msgs::PointCloud2& cloud,
                                          const ppf_bin_picking::DetectorConfig& config);
 
