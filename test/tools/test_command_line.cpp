@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <set>
 
 namespace ppf_bin_picking
 {
@@ -113,6 +115,29 @@ TEST_F(CommandLine, explainsItself)
     EXPECT_EQ(outcome.status, 0);
     expectHolds(outcome.out, "--part");
   }
+}
+
+TEST_F(CommandLine, isDocumentedWhole)
+{
+  const std::string document = contentOf(std::string(PACKAGE_FOLDER) + "/docs/interface.md");
+  std::set<std::string> words;
+  for (const char* tool : {"train_model", "detect_poses", "check_poses", "evaluate_poses"})
+  {
+    const std::string help = run(tool, {"--help"}).out;
+    const std::regex option("--[a-z-]+");
+    for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found)
+      words.insert(found->str());
+  }
+  DetectionResult result;
+  result.poses.emplace_back();
+  result.regions.emplace_back();
+  const std::string json = toJson(ResultFile{"cam", 0, result});
+  const std::regex key("\"([a-z_]+)\":");
+  for (std::sregex_iterator found(json.begin(), json.end(), key), end; found != end; ++found)
+    words.insert(found->str(1));
+  EXPECT_GT(words.size(), 35U);
+  for (const std::string& word : words)
+    EXPECT_NE(document.find("`" + word + "`"), std::string::npos) << word;
 }
 
 TEST_F(CommandLine, refusesBadArguments)
