@@ -57,7 +57,7 @@ protected:
   const std::string depth_ = folder_.write("depth.png", plane());
   const std::string camera_ = folder_.write(
       "camera.yaml",
-      "{width: 64, height: 48, fx: 60.0, fy: 60.0, cx: 31.5, cy: 23.5, depth_unit_m: 0.001, "
+      "{width: 64, height: 48, fx: 100.0, fy: 100.0, cx: 31.5, cy: 23.5, depth_unit_m: 0.001, "
       "frame_id: cam}");
   const std::string roi_ = folder_.write("roi.yaml", "{min: [-9, -9, 1], max: [9, 9, 9]}");
   const std::string model_ = folder_.file("part.ppf");
