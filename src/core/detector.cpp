@@ -81,8 +81,11 @@ void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
   if (cut_short)
   {
     result.status = DetectionStatus::kTimeLimit;
-    text << "the time limit of " << time_limit_s << " s ended the search with " << reliable
-         << " reliable poses: raise time_limit_s to see all";
+    if (time_limit_s > 0)
+      text << "the time limit of " << time_limit_s << " s ended the search with " << reliable
+           << " reliable poses: raise time_limit_s to see all";
+    else
+      text << "the search was stopped with " << reliable << " reliable poses";
   }
   else if (reliable > 0)
   {

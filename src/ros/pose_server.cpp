@@ -222,7 +222,7 @@ DetectionView PoseServer::detect(const sensor_msgs::PointCloud2& cloud,
   }
   for (const LoadedPartPtr& part : parts)
     view.parts.push_back(std::shared_ptr<const PartView>(part, &part->view));
-  view.result = detectParts(points, parts, view.roi);
+  view.result = detectParts(points, parts, view.roi, stop_);
   return view;
 }
 }  // namespace ppf_bin_picking_ros

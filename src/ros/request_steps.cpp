@@ -39,14 +39,14 @@ std::vector<Indices> groupsOfEqualSettings(const std::vector<LoadedPartPtr>& par
 
 DetectionResult detectGroup(const ppf_bin_picking::PointCloud& cloud,
                             const std::vector<LoadedPartPtr>& parts, const Indices& group,
-                            const Roi& roi, const double spent_s)
+                            const Roi& roi, const double spent_s, const std::atomic<bool>& stop)
 {
   std::vector<const ppf_bin_picking::PpfModel*> models;
   for (const std::uint32_t index : group)
     models.push_back(&parts[index]->model);
   ppf_bin_picking::DetectorConfig config = parts[group.front()]->config;
   config.time_limit_s = remainingLimit_s(config.time_limit_s, spent_s);
-  DetectionResult result = Detector(config).detect(cloud, models, roi);
+  DetectionResult result = Detector(config).detect(cloud, models, roi, &stop);
   for (auto& pose : result.poses)
     pose.model = group[pose.model];
   for (auto& region : result.regions)
@@ -122,7 +122,8 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
 }
 
 DetectionResult detectParts(const ppf_bin_picking::PointCloud& cloud_camera,
-                            const std::vector<LoadedPartPtr>& parts, const Roi& roi)
+                            const std::vector<LoadedPartPtr>& parts, const Roi& roi,
+                            const std::atomic<bool>& stop)
 {
   std::vector<const ppf_bin_picking::PpfModel*> models;
   for (const LoadedPartPtr& part : parts)
@@ -131,7 +132,7 @@ DetectionResult detectParts(const ppf_bin_picking::PointCloud& cloud_camera,
   double spent_s = 0;
   for (const Indices& group : groupsOfEqualSettings(parts))
   {
-    results.push_back(detectGroup(cloud_camera, parts, group, roi, spent_s));
+    results.push_back(detectGroup(cloud_camera, parts, group, roi, spent_s, stop));
     spent_s += results.back().seconds;
     if (results.back().status == DetectionStatus::kBadCloud)
       throw RequestFailed(Response::BAD_CLOUD, results.back().message);

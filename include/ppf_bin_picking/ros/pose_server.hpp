@@ -30,7 +30,7 @@ public:
   /// @throw ParamError  if a parameter is wrong; nothing runs then.
   PoseServer(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
-  /// Ends waits, waits for the detection and the part under way, and joins all threads.
+  /// Ends waits and the search under way, waits for the part being loaded, and joins all threads.
   ~PoseServer();
 
   PoseServer(const PoseServer&) = delete;

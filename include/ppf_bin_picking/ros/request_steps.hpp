@@ -10,6 +10,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,11 +36,12 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
 /// Finds the parts. Those of equal settings compete for the cloud; parts of other settings are
 /// looked for on their own, and merged() decides where two of them stand in one place. Time limits
 /// count over all detections.
+/// @param stop  Set from elsewhere to end the search early, with what it has.
 /// @return Poses name the parts by their index; reliable ones first, best first.
 /// @throw RequestFailed (BAD_CLOUD) if the cloud cannot be worked on.
 ppf_bin_picking::DetectionResult detectParts(
     const ppf_bin_picking::PointCloud& cloud_camera, const std::vector<LoadedPartPtr>& parts,
-    const std::optional<ppf_bin_picking::RegionOfInterest>& roi);
+    const std::optional<ppf_bin_picking::RegionOfInterest>& roi, const std::atomic<bool>& stop);
 
 /// What is left of a time limit: above 0, as 0 means no limit, which stays.
 double remainingLimit_s(double limit_s, double spent_s);
