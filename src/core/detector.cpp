@@ -16,7 +16,7 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kMaxDiameterPerSpan = 3;     // a part much larger than the scene has a wrong unit
+constexpr double kMaxDiameterPerDepth = 2;    // a larger part fits into no image: a wrong unit
 constexpr double kMinPixelsPerDiameter = 20;  // below, chance fits look like parts
 
 /// Measures the stages one after the other.
@@ -114,9 +114,9 @@ std::string imageProblem(const RangeImageResult& prepared,
   double largest_m = 0;
   for (const PpfModel* model : models)
     largest_m = std::max(largest_m, model->diameter());
-  if (largest_m > kMaxDiameterPerSpan * prepared.span_m)
-    text << "the part is " << largest_m << " m long but the cloud's points lie within "
-         << prepared.span_m << " m: the mesh's unit or the cloud's is probably wrong (m for mm)";
+  if (largest_m > kMaxDiameterPerDepth * prepared.near_z_m)
+    text << "the part is " << largest_m << " m long but the cloud begins " << prepared.near_z_m
+         << " m before the camera: the mesh's unit or the cloud's is probably wrong (m for mm)";
   else if (prepared.pixels_per_diameter < kMinPixelsPerDiameter)
     text << "the part measures only " << prepared.pixels_per_diameter
          << " pixels across in this cloud and needs " << kMinPixelsPerDiameter

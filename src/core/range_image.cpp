@@ -5,7 +5,6 @@
 #include "range_image_makers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace ppf_bin_picking
@@ -14,8 +13,8 @@ namespace
 {
 constexpr std::size_t kCameraSamples = 20000;  // points that the camera is fitted to
 constexpr float kMaxCameraError_px = 0.5F;
-constexpr std::size_t kRangeSamples = 20000;  // points whose percentiles are taken
-constexpr double kStrayShare = 0.05;          // of the points, at either end
+constexpr std::size_t kDepthSamples = 20000;  // points whose percentile is taken
+constexpr double kStrayShare = 0.05;          // of the points, nearer than the rest
 
 /// Least squares of pixel = focal * slope + center.
 struct LineFit
@@ -61,6 +60,18 @@ std::vector<std::uint8_t> pointsInRegion(const PointCloud& cloud,
               });
   return inside;
 }
+
+/// Depth that a few stray points aside the points inside the region begin at [m].
+/// @param inside  At least one point is.
+float nearDepth(const PointCloud& cloud, const std::vector<std::uint8_t>& inside, std::size_t count)
+{
+  const std::size_t stride = std::max<std::size_t>(1, count / kDepthSamples) | 1;
+  std::vector<float> depths;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (inside[i] && seen++ % stride == 0) depths.push_back(cloud.points[i].z());
+  return percentile(depths, kStrayShare);
+}
 }  // namespace
 
 std::optional<PinholeCamera> estimateCamera(const PointCloud& cloud)
@@ -98,27 +109,6 @@ float percentile(std::vector<float>& values, double share)
   return values[static_cast<std::size_t>(rank)];
 }
 
-PointRange rangeOf(const PointCloud& cloud, const std::vector<std::uint8_t>& inside)
-{
-  const auto count = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
-  if (count == 0) return {};
-  const std::size_t stride = std::max<std::size_t>(1, count / kRangeSamples) | 1;
-  std::array<std::vector<float>, 3> values;
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (inside[i] && seen++ % stride == 0)
-      for (std::size_t k = 0; k < 3; ++k)
-        values[k].push_back(cloud.points[i][static_cast<Eigen::Index>(k)]);
-  PointRange range;
-  range.near_z = percentile(values[2], kStrayShare);
-  Eigen::Vector3f sides;
-  for (std::size_t k = 0; k < 3; ++k)
-    sides[static_cast<Eigen::Index>(k)] =
-        percentile(values[k], 1 - kStrayShare) - percentile(values[k], kStrayShare);
-  range.span_m = sides.norm();
-  return range;
-}
-
 RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<RegionOfInterest>& roi,
                                 const RangeImageOptions& options)
 {
@@ -126,12 +116,12 @@ RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<Reg
   RangeImageResult result;
   result.roi_points = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
   if (result.roi_points == 0) return result;
-  const PointRange range = rangeOf(cloud, inside);
+  const float near_z = nearDepth(cloud, inside, result.roi_points);
   const std::optional<PinholeCamera> camera = estimateCamera(cloud);
-  result.image = camera ? imageOfOrganised(cloud, *camera, inside, range.near_z, options)
-                        : imageOfPoints(cloud, inside, range.near_z, options);
-  result.span_m = range.span_m;
-  result.pixels_per_diameter = options.diameter_m * result.image.camera.fx / range.near_z;
+  result.image = camera ? imageOfOrganised(cloud, *camera, inside, near_z, options)
+                        : imageOfPoints(cloud, inside, near_z, options);
+  result.near_z_m = near_z;
+  result.pixels_per_diameter = options.diameter_m * result.image.camera.fx / near_z;
   return result;
 }
 }  // namespace ppf_bin_picking

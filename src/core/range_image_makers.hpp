@@ -23,14 +23,6 @@ inline bool measured(const Eigen::Vector3f& p)
   return p.allFinite() && p.z() > 1e-3F && std::max(std::abs(p.x()), std::abs(p.y())) < 20 * p.z();
 }
 
-/// Where the points inside the region lie, stray ones aside: percentiles over a sample of them.
-struct PointRange
-{
-  float near_z = 0;  ///< Depth that 5 % of the points are nearer than [m]. 0 without points.
-  float span_m = 0;  ///< Diagonal of the box of the middle 90 % in x, y and z.
-};
-PointRange rangeOf(const PointCloud& cloud, const std::vector<std::uint8_t>& inside);
-
 /// The value that a share of the values are below. @param values  Not empty; gets another order.
 float percentile(std::vector<float>& values, double share);
 

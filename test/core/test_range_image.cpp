@@ -413,7 +413,7 @@ TEST(MakeRangeImage, seesTheSameSurfaceOrganisedOrNot)
       const Eigen::Vector3f& normal = loose.normals[loose.index(u_loose, v_loose)];
       ASSERT_NEAR(normal.norm(), 1, 1e-4);
       ++compared;
-      turned += normal.dot(organised.normals[organised.index(u, v)]) < std::cos(0.15F) ? 1 : 0;
+      turned += normal.dot(organised.normals[organised.index(u, v)]) < std::cos(0.2F) ? 1 : 0;
     }
   EXPECT_GT(compared, 5000);
   EXPECT_LT(turned, 0.01 * compared);

@@ -117,7 +117,7 @@ class StatusesTest(unittest.TestCase):
     def test_no_pickable_pose_on_a_crumb(self):
         points = box_scenes.scan([("crumb", STEPS)])
         answer = self.answer(to_message(points))
-        self.expect(answer, Response.NO_PICKABLE_POSE, "no reliable pose")
+        self.expect(answer, Response.NO_PICKABLE_POSE, "nothing like the part was found")
         self.assertGreater(answer.roi_points, 0)
 
     def test_roi_empty_on_an_empty_floor(self):

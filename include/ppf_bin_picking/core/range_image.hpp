@@ -46,7 +46,7 @@ struct RangeImageResult
 {
   RangeImage image;
   std::size_t roi_points = 0;      ///< Measured points of the cloud inside the region.
-  double span_m = 0;               ///< Diagonal of the box of the middle 90 % of these points.
+  double near_z_m = 0;             ///< Depth that 5 % of these points are nearer than.
   double pixels_per_diameter = 0;  ///< Of the smallest part, where the points are nearest.
 };
 
