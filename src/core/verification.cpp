@@ -76,46 +76,40 @@ private:
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
     const float weight =
         std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
-    // Near the outline sensors mix what lies before and behind, so contradictions weigh less there.
-    const auto doubt = [&]
-    {
-      const int distance_px = outlineDistance(view_, image_.camera, column, row, jump_m_, ring_px_);
-      return weight * static_cast<float>(distance_px) / static_cast<float>(ring_px_);
-    };
     const float z = image_.depth[index];
-    ++evidence_.visible_px;
-    if (z == 0)
-    {
-      evidence_.missing += doubt();
-      return;
-    }
     const float behind_m =
         (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
-    if (behind_m < -gate_m_)
+    const Eigen::Vector3f& normal = image_.normals[index];
+    if (z > 0 && behind_m < -gate_m_)
     {
       evidence_.occluded += weight;
-      --evidence_.visible_px;
       return;
     }
-    if (behind_m > gate_m_)
-    {
-      evidence_.looked_through += doubt();
-      return;
-    }
-    const Eigen::Vector3f& normal = image_.normals[index];
-    if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
-    {
-      evidence_.wrong_normal += doubt();
-      return;
-    }
-    if (!image_.in_roi[index])
-    {
+    ++evidence_.visible_px;
+    if (z == 0)
+      evidence_.missing += doubt(column, row, weight);
+    else if (behind_m > gate_m_)
+      evidence_.looked_through += doubt(column, row, weight);
+    else if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
+      evidence_.wrong_normal += doubt(column, row, weight);
+    else if (!image_.in_roi[index])
       evidence_.outside += weight;
-      return;
-    }
+    else
+      confirm(index, weight, behind_m);
+  }
+
+  void confirm(std::size_t index, float weight, float behind_m)
+  {
     evidence_.confirmed.push_back({static_cast<std::uint32_t>(index), weight});
     evidence_.confirmed_weight += weight;
     squared_error_ += behind_m * behind_m;
+  }
+
+  /// The weight of a contradiction: near the outline sensors mix what lies before and behind.
+  float doubt(int column, int row, float weight) const
+  {
+    const int distance_px = outlineDistance(view_, image_.camera, column, row, jump_m_, ring_px_);
+    return weight * static_cast<float>(distance_px) / static_cast<float>(ring_px_);
   }
 
   /// Follows the measured surface across the outline.
