@@ -8,11 +8,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kDropGap_m = 0.005;    // between the pile's highest point and a part let go
-constexpr double kWallGap_m = 0.001;    // between a part let go and the walls
-constexpr int kAttitudesTried = 100;    // until one fits between the walls
-constexpr double kDropPause_s = 0.5;    // at most, from one part to the next
-constexpr double kNextDrop_m_s = 0.05;  // the next part may come when all are slower
 constexpr double kMostSettling_s = 60;  // simulated
 constexpr double kCreep_m = 0.0001;     // no point of a resting part gets further in rest_s
 constexpr std::size_t kMostDrops = 3;   // of each part, on average, until it settles
@@ -24,15 +19,6 @@ constexpr double kSlowDrag_1_s = 5;
 constexpr int kIterations = 60;        // of the solver, each step
 constexpr btScalar kPushApart = 0.1F;  // share of a penetration that a step mends
 constexpr btScalar kNoBounce = 1;      // slower contacts do not bounce [Bullet's units a second]
-
-/// Rolls evenly over all attitudes.
-Eigen::Quaterniond randomAttitude(Random& random)
-{
-  Eigen::Vector4d numbers;
-  for (int k = 0; k < 4; ++k)
-    numbers[k] = random.normal();
-  return Eigen::Quaterniond(numbers.normalized());
-}
 
 }  // namespace
 
@@ -123,67 +109,6 @@ void PartPile::World::addBody(btCollisionShape* shape, const btTransform& pose, 
   world_.addRigidBody(bodies.back().get());
 }
 
-btTransform PartPile::World::randomStart(double lowest_m)
-{
-  for (int trial = 0; trial < kAttitudesTried; ++trial)
-  {
-    const Eigen::Quaterniond attitude = randomAttitude(random_);
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& corner : corners_body_)
-      box.extend(attitude * corner);
-    const Eigen::Vector3d room =
-        bin_.size_m - box.sizes() - Eigen::Vector3d::Constant(2 * kWallGap_m);
-    if (room.x() < 0 || room.y() < 0) continue;
-    const Eigen::Vector3d lowest_corner(
-        random_.uniform(-room.x() / 2, room.x() / 2) - box.sizes().x() / 2,
-        random_.uniform(-room.y() / 2, room.y() / 2) - box.sizes().y() / 2, lowest_m);
-    return btTransform(bulletRotation(attitude), toBullet(lowest_corner - box.min()));
-  }
-  throw std::invalid_argument(
-      "the part does not fit into the bin: check the part's unit, or give a larger bin");
-}
-
-double PartPile::World::pileTop_m() const
-{
-  double top = 0;
-  for (const auto& part : parts_)
-  {
-    btVector3 low, high;
-    part->getAabb(low, high);
-    top = std::max(top, toMetres(high.z()));
-  }
-  return top;
-}
-
-bool PartPile::World::isOverFloor(const btRigidBody& body) const
-{
-  const btVector3& center = body.getWorldTransform().getOrigin();
-  return std::abs(toMetres(center.x())) < bin_.size_m.x() / 2 &&
-         std::abs(toMetres(center.y())) < bin_.size_m.y() / 2 && center.z() > 0;
-}
-
-/// Drops the parts again that have left the bin. @return how many.
-std::size_t PartPile::World::dropStrays()
-{
-  std::size_t found = 0;
-  for (const auto& part : parts_)
-  {
-    if (isOverFloor(*part)) continue;
-    ++found;
-    part->setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, 0)));
-    world_.updateSingleAabb(part.get());
-    const btTransform start = randomStart(pileTop_m() + kDropGap_m);
-    part->setWorldTransform(start);
-    part->setInterpolationWorldTransform(start);
-    part->setLinearVelocity(btVector3(0, 0, 0));
-    part->setAngularVelocity(btVector3(0, 0, 0));
-    world_.updateSingleAabb(part.get());
-    broadphase_.getOverlappingPairCache()->cleanProxyFromPairs(part->getBroadphaseHandle(),
-                                                               &dispatcher_);
-  }
-  return found;
-}
-
 /// At most, of any of its points.
 double PartPile::World::speed_m_s(const btRigidBody& body) const
 {
@@ -212,20 +137,6 @@ void PartPile::World::step()
     part->setAngularVelocity(part->getAngularVelocity() * static_cast<btScalar>(keep));
   }
   world_.stepSimulation(static_cast<btScalar>(settings_.step_s), 0);
-}
-
-void PartPile::World::drop(int count, std::uint32_t seed)
-{
-  random_ = Random(seed);
-  const int pause = static_cast<int>(std::ceil(kDropPause_s / settings_.step_s));
-  for (int k = 0; k < count; ++k)
-  {
-    addBody(shape_.compound(), randomStart(pileTop_m() + kDropGap_m), true);
-    for (int i = 0; i < pause && (i < pause / 4 || fastest_m_s() > kNextDrop_m_s); ++i)
-      step();
-    dropStrays();
-  }
-  settle();
 }
 
 void PartPile::World::remove(std::size_t index)

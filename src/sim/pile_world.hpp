@@ -37,8 +37,8 @@ public:
 private:
   void addBin();
   void addBody(btCollisionShape* shape, const btTransform& pose, bool moves);
-  btTransform randomStart(double lowest_m);
-  double pileTop_m() const;
+  btTransform randomStart();
+  bool liftAbovePile(btTransform& start, const btRigidBody* itself);
   bool isOverFloor(const btRigidBody& body) const;
   std::size_t dropStrays();
   double furthestMove_m(const std::vector<Eigen::Isometry3d>& since) const;

@@ -23,6 +23,7 @@ add_library(
   ${sim_dir}/mass_properties.cpp
   ${sim_dir}/part_pile.cpp
   ${sim_dir}/pick_judge.cpp
+  ${sim_dir}/pile_drop.cpp
   ${sim_dir}/pile_world.cpp
   ${sim_dir}/random.cpp
   ${sim_dir}/ray_caster.cpp

@@ -52,9 +52,9 @@ public:
   PartPile(const PartPile&) = delete;
   PartPile& operator=(const PartPile&) = delete;
 
-  /// Drops parts at random attitudes and places from just above the pile, one after the other, each
-  /// when those before it are slow, and lets them come to rest. One that leaves the bin (its centre
-  /// of mass is not over the floor) is dropped again.
+  /// Drops parts at random attitudes and places from just above what lies there, each when the
+  /// parts below it are slow, so that several fall side by side, and lets them come to rest. One
+  /// that leaves the bin (its centre of mass is not over the floor) is dropped again.
   /// @param count  >= 0.
   /// @throw std::invalid_argument if the part does not fit into the bin or the bin overflows.
   void drop(int count, std::uint32_t seed);
