@@ -15,6 +15,7 @@ constexpr float kUnseenFacing =
 constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
+constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
 constexpr double kMissingWeight = 0.4;  // of a contradiction
 constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
 
@@ -35,6 +36,7 @@ public:
         view_(view),
         gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
         jump_m_(boundaryJump(diameter_m)),
+        normal_radius_px_(config.normal_radius_px),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
     const float depth_m =
@@ -90,12 +92,31 @@ private:
       evidence_.missing += doubt(column, row, weight);
     else if (behind_m > gate_m_)
       evidence_.looked_through += doubt(column, row, weight);
-    else if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_)
+    else if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_ &&
+             isEven(column, row, pixel))
       evidence_.wrong_normal += doubt(column, row, weight);
     else if (!image_.in_roi[index])
       evidence_.outside += weight;
     else
       confirm(index, weight, behind_m);
+  }
+
+  /// True if the window of the image's plane fits sees one even piece of the part; over a crease or
+  /// a small step its normal is none of the part's.
+  bool isEven(int column, int row, const ModelPixel& middle) const
+  {
+    const int right = std::min(column + normal_radius_px_, view_.width - 1);
+    const int bottom = std::min(row + normal_radius_px_, view_.height - 1);
+    for (int r = std::max(row - normal_radius_px_, 0); r <= bottom; ++r)
+      for (int c = std::max(column - normal_radius_px_, 0); c <= right; ++c)
+      {
+        if (view_.depthAt(c, r) == 0) continue;
+        const ModelPixel other = modelPixel(c, r);
+        if (other.normal.dot(middle.normal) < min_normal_cosine_ ||
+            std::abs(middle.normal.dot(other.point - middle.point)) > kStepGates * gate_m_)
+          return false;
+      }
+    return true;
   }
 
   void confirm(std::size_t index, float weight, float behind_m)
@@ -142,6 +163,7 @@ private:
   const RenderedPart& view_;
   float gate_m_;
   float jump_m_;
+  int normal_radius_px_;
   float min_normal_cosine_;
   int edge_reach_px_ = 2;
   int ring_px_ = 1;

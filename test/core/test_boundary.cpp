@@ -1,6 +1,5 @@
 #include "ppf_bin_picking/core/boundary.hpp"
 #include "ppf_bin_picking/core/boundary_matcher.hpp"
-#include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/pose_clustering.hpp"
 
 #include "support/shapes.hpp"
@@ -19,18 +18,8 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr float kJump_m = 0.002F;
+constexpr float kNormalGate_m = 0.005F;
 constexpr float kPixel_m = 0.001F;  // of smallCamera() at 0.6 m
-
-/// What the camera sees of a scene, with normals; all of it in the region.
-RangeImage imageOf(const std::vector<PlacedMesh>& scene)
-{
-  RangeImage image;
-  image.camera = smallCamera();
-  image.depth = renderDepth(scene, image.camera);
-  image.in_roi.assign(image.depth.size(), 1);
-  estimateImageNormals(image, 2, 0.005F, 1);
-  return image;
-}
 
 PlacedMesh wall(double z_m)
 {
@@ -41,7 +30,10 @@ PlacedMesh wall(double z_m)
 class SquareBeforeWall : public ::testing::Test
 {
 protected:
-  RangeImage image() const { return imageOf({wall(0.65), {squareMesh(0.06F), T_camera_square_}}); }
+  RangeImage image() const
+  {
+    return imageOf({wall(0.65), {squareMesh(0.06F), T_camera_square_}}, kNormalGate_m);
+  }
 
   /// The square's half side, as squareMesh() draws it.
   const float half_m_ = squareMesh(0.06F).vertices.front().cwiseAbs().maxCoeff();
@@ -77,9 +69,9 @@ TEST_F(SquareBeforeWall, hasItsBoundaryOnItsSidesWithFramesThatPointOffIt)
 
 TEST_F(SquareBeforeWall, hasNoBoundaryWithoutAStepBehindIt)
 {
-  RangeImage alone = imageOf({{squareMesh(0.06F), T_camera_square_}});
+  RangeImage alone = imageOf({{squareMesh(0.06F), T_camera_square_}}, kNormalGate_m);
   EXPECT_TRUE(boundaryOf(alone, kJump_m).empty()) << "nothing measured is no step";
-  const RangeImage flat = imageOf({wall(0.65)});
+  const RangeImage flat = imageOf({wall(0.65)}, kNormalGate_m);
   EXPECT_TRUE(boundaryOf(flat, kJump_m).empty());
   EXPECT_TRUE(boundaryOf(image(), 0.2F).empty()) << "the wall is less than 0.2 m behind";
 }
@@ -130,9 +122,10 @@ protected:
   std::vector<BoundaryPoint> boundaryAt(const Eigen::Isometry3d& T_camera_box) const
   {
     const auto diameter_m = static_cast<float>(model_.diameter());
-    return thinOutBoundary(boundaryOf(imageOf({wall(0.75), {boxMesh(size_m_), T_camera_box}}),
-                                      boundaryJump(diameter_m)),
-                           boundarySpacing(diameter_m));
+    return thinOutBoundary(
+        boundaryOf(imageOf({wall(0.75), {boxMesh(size_m_), T_camera_box}}, kNormalGate_m),
+                   boundaryJump(diameter_m)),
+        boundarySpacing(diameter_m));
   }
 
   DetectorConfig config_;

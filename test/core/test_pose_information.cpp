@@ -1,4 +1,3 @@
-#include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 
 #include "support/shapes.hpp"
@@ -14,15 +13,7 @@ namespace ppf_bin_picking
 {
 namespace
 {
-RangeImage imageOf(const std::vector<PlacedMesh>& scene)
-{
-  RangeImage image;
-  image.camera = smallCamera();
-  image.depth = renderDepth(scene, image.camera);
-  image.in_roi.assign(image.depth.size(), 1);
-  estimateImageNormals(image, 2, 0.003F, 1);
-  return image;
-}
+constexpr float kNormalGate_m = 0.003F;
 
 PpfModel trained(const TriangleMesh& mesh, const SymmetryGroup& symmetries = SymmetryGroup())
 {
@@ -52,18 +43,18 @@ TEST(PoseInformation, aFreePlateIsHeldAndOneWithinALargerFaceIsNot)
 {
   const PpfModel plate = trained(plateMesh());
   const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
-  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}), plate, pose);
+  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}, kNormalGate_m), plate, pose);
   EXPECT_GT(free, 0.1F);
-  EXPECT_LT(holdIn(imageOf({wall(0.597)}), plate, pose), 0.01F * free);
+  EXPECT_LT(holdIn(imageOf({wall(0.597)}, kNormalGate_m), plate, pose), 0.01F * free);
 }
 
 TEST(PoseInformation, aPlateOnASlideIsHeldLess)
 {
   const PpfModel plate = trained(plateMesh());
   const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
-  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}), plate, pose);
+  const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}, kNormalGate_m), plate, pose);
   const TriangleMesh bar = boxMesh({0.3F, 0.06F, 0.006F});  // goes on beyond two of its sides
-  EXPECT_LT(holdIn(imageOf({wall(0.8), {bar, pose}}), plate, pose), 0.2F * free);
+  EXPECT_LT(holdIn(imageOf({wall(0.8), {bar, pose}}, kNormalGate_m), plate, pose), 0.2F * free);
 }
 
 TEST(PoseInformation, whatTheSymmetriesHideNeedNotBeHeld)
@@ -71,7 +62,7 @@ TEST(PoseInformation, whatTheSymmetriesHideNeedNotBeHeld)
   const TriangleMesh mesh = cylinderMesh(0.012F, 0.08F, 64);
   const SymmetryAxis axis{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   const Eigen::Isometry3d pose = poseOf(1.3, {1, 0.4, 0}, {0.01, 0, 0.6});
-  const RangeImage image = imageOf({wall(0.8), {mesh, pose}});
+  const RangeImage image = imageOf({wall(0.8), {mesh, pose}}, kNormalGate_m);
   const float turning = holdIn(image, trained(mesh), pose);
   EXPECT_LT(turning, 0.01F);
   EXPECT_GT(holdIn(image, trained(mesh, SymmetryGroup({}, {axis})), pose), 0.02F);

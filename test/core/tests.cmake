@@ -25,4 +25,5 @@ set(core_tests
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry
-    test_verification)
+    test_verification
+    test_verification_relief)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/point_cloud.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"
 
@@ -83,6 +84,18 @@ inline std::vector<float> renderDepth(const std::vector<PlacedMesh>& scene,
       }
   }
   return depth;
+}
+
+/// What smallCamera() measures of a scene, with normals; all of it in the region.
+/// @param depth_gate_m  See estimateImageNormals().
+inline RangeImage imageOf(const std::vector<PlacedMesh>& scene, float depth_gate_m)
+{
+  RangeImage image;
+  image.camera = smallCamera();
+  image.depth = renderDepth(scene, image.camera);
+  image.in_roi.assign(image.depth.size(), 1);
+  estimateImageNormals(image, 2, depth_gate_m, 1);
+  return image;
 }
 
 /// The organised cloud of a scene, NaN where the camera sees nothing.
