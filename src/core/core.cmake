@@ -35,6 +35,7 @@ add_library(
   ${core_dir}/ppf_matcher.cpp
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
+  ${core_dir}/reliability.cpp
   ${core_dir}/selection.cpp
   ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp

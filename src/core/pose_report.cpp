@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
+#include "ppf_bin_picking/core/reliability.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -43,12 +44,34 @@ UnreliableReason reasonOf(const DetectedPose& pose, bool rivals_known, const Clu
     return UnreliableReason::kSpread;
   if (config.mismatch_test && pose.slide_share > config.max_slide_share)
     return UnreliableReason::kSlippage;
-  if (config.mismatch_test && pose.margin < config.min_margin) return UnreliableReason::kRunnerUp;
-  if (pose.score < config.min_score || pose.support < config.min_support ||
-      pose.visible_fraction < config.min_visible_share ||
+  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share ||
       pose.confirmed_px < config.min_confirmed_px)
     return UnreliableReason::kLowScore;
+  if (config.mismatch_test && pose.reliability < config.min_reliability)
+    return assessReliability(pose).weakest;
   return UnreliableReason::kNone;
+}
+
+/// What pulled the reliability down.
+std::string weaknessOf(const DetectedPose& pose)
+{
+  switch (pose.reason)
+  {
+    case UnreliableReason::kRunnerUp:
+      return "another pose explains the same points almost as well, with " + percent(pose.margin) +
+             " less evidence";
+    case UnreliableReason::kSlippage:
+      return "what is seen of it hardly keeps it from sliding or turning";
+    case UnreliableReason::kSpread:
+      return "its hypotheses spread over " + percent(pose.spread) + " of the part's diameter";
+    case UnreliableReason::kOverlap:
+      return "better poses explain " + percent(pose.claimed) + " of its surface";
+    default:
+      return "the cloud lies behind " + percent(pose.looked_through) +
+             " of the surface and goes on beyond " + percent(pose.outline_broken) +
+             " of the outline, " + percent(pose.visible_fraction) + " is not hidden, " +
+             std::to_string(pose.confirmed_px) + " pixels confirm it";
+  }
 }
 
 std::string detailOf(const DetectedPose& pose, bool rivals_known, const OrientedBox& spread,
@@ -56,20 +79,19 @@ std::string detailOf(const DetectedPose& pose, bool rivals_known, const Oriented
 {
   if (!rivals_known)
     return "the time limit came before every other pose there was looked at: raise time_limit_s";
-  if (pose.reason == UnreliableReason::kSpread)
+  if (pose.reason == UnreliableReason::kSpread &&
+      sideSum(spread) > config.max_spread_rel * model.diameter())
     return "the hypotheses spread over " + percent(sideSum(spread) / model.diameter()) +
            " of the part's diameter, more than max_spread_rel allows (" +
            percent(config.max_spread_rel) + ")";
-  if (pose.reason == UnreliableReason::kSlippage)
+  if (pose.reason == UnreliableReason::kSlippage && pose.slide_share > config.max_slide_share)
     return "the measured surface goes on beyond " + percent(pose.slide_share) +
            " of the outline that should stop a slide (max_slide_share " +
            percent(config.max_slide_share) + ")";
-  if (pose.reason == UnreliableReason::kRunnerUp)
-    return "another pose explains the same points almost as well: it lacks " +
-           percent(pose.margin) + " of the evidence (min_margin " + percent(config.min_margin) +
-           ")";
+  if (pose.reliability < config.min_reliability)
+    return "right with a probability of " + percent(pose.reliability) + " only (min_reliability " +
+           percent(config.min_reliability) + "): " + weaknessOf(pose);
   return "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
-         "), support " + percent(pose.support) + " (min_support " + percent(config.min_support) +
          "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
          percent(config.min_visible_share) + "), confirmed by " +
          std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
@@ -105,6 +127,12 @@ DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, doubl
   pose.support = candidate.evidence.support();
   pose.confirmed_px = static_cast<int>(candidate.evidence.confirmed.size());
   pose.evidence_balance = balance / std::max(1.0, candidate.evidence.confirmed_weight);
+  const PoseEvidence& evidence = candidate.evidence;
+  const double expected = std::max(1.0, evidence.expected());
+  pose.looked_through = evidence.looked_through / expected;
+  pose.outline_broken =
+      evidence.outline_broken / std::max(1.0, evidence.outline_held + evidence.outline_broken);
+  pose.claimed = (evidence.confirmed_weight - confirmed) / expected;
   pose.cluster = candidate.cluster;
   return pose;
 }
@@ -190,6 +218,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       share = {cluster.box, cluster.hypotheses};
     }
     pose.spread = sideSum(share.box) / model.diameter();
+    pose.reliability = assessReliability(pose).probability;
     const bool rivals_known = ambiguities[i].rivals_known;
     pose.reason = reasonOf(pose, rivals_known, share, model, config);
     pose.reliable = pose.reason == UnreliableReason::kNone;

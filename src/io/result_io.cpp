@@ -48,7 +48,11 @@ json toJson(const DetectedPose& pose)
           {"spread", pose.spread},
           {"margin", pose.margin},
           {"support", pose.support},
-          {"evidence_balance", pose.evidence_balance}};
+          {"evidence_balance", pose.evidence_balance},
+          {"looked_through", pose.looked_through},
+          {"outline_broken", pose.outline_broken},
+          {"claimed", pose.claimed},
+          {"reliability", pose.reliability}};
 }
 
 json toJson(const MismatchingRegion& region)
@@ -89,6 +93,10 @@ DetectedPose poseFrom(const json& item)
   pose.spread = item.value("spread", 0.0);
   pose.support = item.value("support", 0.0);
   pose.evidence_balance = item.value("evidence_balance", 0.0);
+  pose.looked_through = item.value("looked_through", 0.0);
+  pose.outline_broken = item.value("outline_broken", 0.0);
+  pose.claimed = item.value("claimed", 0.0);
+  pose.reliability = item.value("reliability", 0.0);
   return pose;
 }
 

@@ -21,6 +21,7 @@ set(core_tests
     test_ppf_matcher
     test_ppf_model
     test_range_image
+    test_reliability
     test_selection
     test_surface_discrepancy
     test_surface_sampling

@@ -84,6 +84,11 @@ struct DetectedPose
   double margin = 1;  ///< Lead over the best rival, relative to its pixels. At most 1.
   double evidence_balance =
       0;  ///< Evidence for the pose less that against it, in pixels confirming it. At most 1.
+  double looked_through =
+      0;  ///< Of the surface it expects, the share the cloud lies behind. [0, 1]
+  double outline_broken = 0;  ///< Of its outline in sight, the share where the cloud does not end.
+  double claimed = 0;         ///< Of the surface it expects, the share better poses explain. [0, 1]
+  double reliability = 0;     ///< Probability that it is right; see reliability.hpp. [0, 1]
   bool reliable = false;
   UnreliableReason reason = UnreliableReason::kNone;  ///< kNone if and only if reliable.
   std::int32_t cluster = -1;  ///< The cluster it came from; -1 under greedy clustering.

@@ -58,16 +58,15 @@ struct DetectorConfig
   // Mismatching regions
   bool mismatch_test = true;      ///< Mark poses that spread or slide as unreliable.
   double max_spread_rel = 1.5;    ///< Largest sum of a cluster's box sides. > 0.
-  double max_slide_share = 0.75;  ///< Largest share of open outline against a slide. [0, 1].
-  double min_margin = 0.2;        ///< Least lead over the best other pose there. [-1, 1].
+  double max_slide_share = 0.85;  ///< Largest share of open outline against a slide. [0, 1].
+  double min_reliability = 0.8;   ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;        ///< Poses that are refined and verified at most. >= 1.
   int icp_iterations = 12;         ///< Steps of point-to-plane ICP. In [0, 100].
   double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
-  double min_score = 0.5;          ///< Poses scoring less are not reliable. [0, 1].
-  double min_support = 0.5;        ///< Poses with less of their visible pixels confirmed neither.
+  double min_score = 0.4;          ///< Poses scoring less are not reliable. [0, 1].
   double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
 
   int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
@@ -107,13 +106,12 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("mismatch_test", config.mismatch_test);
   visit("max_spread_rel", config.max_spread_rel);
   visit("max_slide_share", config.max_slide_share);
-  visit("min_margin", config.min_margin);
+  visit("min_reliability", config.min_reliability);
   visit("max_candidates", config.max_candidates);
   visit("icp_iterations", config.icp_iterations);
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);
   visit("min_score", config.min_score);
-  visit("min_support", config.min_support);
   visit("min_visible_share", config.min_visible_share);
   visit("min_confirmed_px", config.min_confirmed_px);
   visit("threads", config.threads);
