@@ -36,9 +36,13 @@ add_library(
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
   ${core_dir}/selection.cpp
+  ${core_dir}/self_distance.cpp
   ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp
+  ${core_dir}/symmetry_axes.cpp
+  ${core_dir}/symmetry_check.cpp
+  ${core_dir}/symmetry_search.cpp
   ${core_dir}/verification.cpp
   ${core_dir}/viewpoints.cpp)
 target_include_directories(${PROJECT_NAME}_core PUBLIC "${core_dir}/../../include")

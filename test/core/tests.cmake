@@ -22,8 +22,11 @@ set(core_tests
     test_ppf_model
     test_range_image
     test_selection
+    test_self_distance
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry
+    test_symmetry_check
+    test_symmetry_search
     test_verification
     test_verification_relief)
