@@ -13,6 +13,7 @@ add_library(
   ${core_dir}/boundary_matcher.cpp
   ${core_dir}/boundary_table.cpp
   ${core_dir}/candidate_search.cpp
+  ${core_dir}/canonical_pose.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_result.cpp
   ${core_dir}/detector.cpp

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/pose_report.hpp"
 
 #include "ppf_bin_picking/core/ambiguity.hpp"
+#include "ppf_bin_picking/core/canonical_pose.hpp"
 #include "ppf_bin_picking/core/mismatch.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
@@ -91,13 +92,15 @@ MismatchingRegion regionOf(const DetectedPose& pose, bool rivals_known, const Cl
   return region;
 }
 
-DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, double balance)
+DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, double confirmed,
+                             double balance)
 {
   DetectedPose pose;
   pose.model = candidate.model;
   pose.T_cloud_model = candidate.T_camera_model.cast<double>();
   pose.T_cloud_model.linear() =
       Eigen::Quaterniond(pose.T_cloud_model.linear()).normalized().toRotationMatrix();
+  pose.T_cloud_model = canonicalPose(pose.T_cloud_model, model.symmetries());
   pose.score = poseScore(candidate.evidence, confirmed);
   pose.votes = candidate.votes;
   pose.visible_fraction = visibleFraction(candidate.evidence);
@@ -139,7 +142,8 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    [&](const Candidate& candidate)
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
-    DetectedPose pose = poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
+    DetectedPose pose =
+        poseOfCandidate(*best, *models[best->model], best->evidence.confirmed_weight, 0.0);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
         regionOf(pose, true, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
@@ -178,11 +182,12 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
-    DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
+    const PpfModel& model = *models[candidate.model];
+    DetectedPose pose =
+        poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
     pose.slide_share = ambiguities[i].slide_share;
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
-    const PpfModel& model = *models[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
     {  // its outline lets it slide, so the whole of its cluster may be one pose sliding

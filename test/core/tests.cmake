@@ -2,6 +2,7 @@
 set(core_tests
     test_ambiguity
     test_boundary
+    test_canonical_pose
     test_dbscan
     test_detector
     test_detector_config
