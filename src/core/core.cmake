@@ -27,6 +27,7 @@ add_library(
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
   ${core_dir}/points_image.cpp
+  ${core_dir}/explanation.cpp
   ${core_dir}/pose_clustering.cpp
   ${core_dir}/pose_errors.cpp
   ${core_dir}/pose_information.cpp
