@@ -29,6 +29,7 @@ add_library(
   ${core_dir}/points_image.cpp
   ${core_dir}/explanation.cpp
   ${core_dir}/pose_clustering.cpp
+  ${core_dir}/pose_covariance.cpp
   ${core_dir}/pose_errors.cpp
   ${core_dir}/pose_information.cpp
   ${core_dir}/pose_refinement.cpp

@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/core/mismatch.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
+#include "ppf_bin_picking/core/pose_covariance.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 
 #include <algorithm>
@@ -129,6 +130,18 @@ std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfM
   return holds;
 }
 
+/// Writes each pose's covariance.
+void addCovariances(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                    const DetectorConfig& config, std::vector<DetectedPose>& poses)
+{
+  parallelFor(config.threads, poses.size(),
+              [&](std::size_t i)
+              {
+                poses[i].covariance =
+                    poseCovariance(image, *models[poses[i].model], poses[i].T_cloud_model, config);
+              });
+}
+
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
@@ -202,6 +215,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       result.regions.push_back(regionOf(pose, rivals_known, share, model, config));
     result.poses.push_back(pose);
   }
+  addCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
   std::stable_sort(result.poses.begin(), result.poses.end(),
                    [](const DetectedPose& a, const DetectedPose& b)

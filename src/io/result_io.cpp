@@ -32,6 +32,18 @@ typename Values::value_type fromWord(const Values& values, const std::string& wo
   throw std::invalid_argument("'" + word + "' is no word of such a file");
 }
 
+/// Row by row; symmetric, so that columns will do.
+std::vector<double> numbersOf(const Matrix6d& matrix)
+{
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
+Matrix6d covarianceOf(const json& item)
+{
+  if (!item.contains("covariance")) return unknownCovariance();
+  return Matrix6d(item.at("covariance").get<std::array<double, 36>>().data());
+}
+
 json toJson(const DetectedPose& pose)
 {
   return {{"model", pose.model},
@@ -48,7 +60,8 @@ json toJson(const DetectedPose& pose)
           {"spread", pose.spread},
           {"margin", pose.margin},
           {"support", pose.support},
-          {"evidence_balance", pose.evidence_balance}};
+          {"evidence_balance", pose.evidence_balance},
+          {"covariance", numbersOf(pose.covariance)}};
 }
 
 json toJson(const MismatchingRegion& region)
@@ -89,6 +102,7 @@ DetectedPose poseFrom(const json& item)
   pose.spread = item.value("spread", 0.0);
   pose.support = item.value("support", 0.0);
   pose.evidence_balance = item.value("evidence_balance", 0.0);
+  pose.covariance = covarianceOf(item);
   return pose;
 }
 

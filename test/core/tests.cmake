@@ -15,6 +15,7 @@ set(core_tests
     test_parallel
     test_pca
     test_pose_clustering
+    test_pose_covariance
     test_pose_errors
     test_pose_information
     test_pose_refinement
