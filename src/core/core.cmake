@@ -13,6 +13,7 @@ add_library(
   ${core_dir}/boundary_matcher.cpp
   ${core_dir}/boundary_table.cpp
   ${core_dir}/candidate_search.cpp
+  ${core_dir}/canonical_pose.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_result.cpp
   ${core_dir}/detector.cpp
@@ -26,7 +27,9 @@ add_library(
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
   ${core_dir}/points_image.cpp
+  ${core_dir}/explanation.cpp
   ${core_dir}/pose_clustering.cpp
+  ${core_dir}/pose_covariance.cpp
   ${core_dir}/pose_errors.cpp
   ${core_dir}/pose_information.cpp
   ${core_dir}/pose_refinement.cpp
@@ -37,9 +40,13 @@ add_library(
   ${core_dir}/range_image.cpp
   ${core_dir}/reliability.cpp
   ${core_dir}/selection.cpp
+  ${core_dir}/self_distance.cpp
   ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp
+  ${core_dir}/symmetry_axes.cpp
+  ${core_dir}/symmetry_check.cpp
+  ${core_dir}/symmetry_search.cpp
   ${core_dir}/verification.cpp
   ${core_dir}/viewpoints.cpp)
 target_include_directories(${PROJECT_NAME}_core PUBLIC "${core_dir}/../../include")

@@ -124,12 +124,21 @@ std::string imageProblem(const RangeImageResult& prepared,
   return text.str();
 }
 
+/// What a detection works on.
+struct Work
+{
+  RangeImageResult prepared;
+  std::vector<Candidate> candidates;
+  std::vector<SelectedPose> selected;
+};
+
 /// From a cloud that can be worked on to the poses.
 void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
             const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,
-            const Deadline& deadline, StageClock& clock, DetectionResult& result)
+            const Deadline& deadline, StageClock& clock, Work& work, DetectionResult& result)
 {
-  const RangeImageResult prepared = makeRangeImage(cloud_camera, roi, imageOptions(config, models));
+  const RangeImageResult& prepared = work.prepared =
+      makeRangeImage(cloud_camera, roi, imageOptions(config, models));
   const RangeImage& image = prepared.image;
   result.roi_points = prepared.roi_points;
   const auto lap = [&](const char* stage) { clock.lap(stage, result.stages); };
@@ -148,15 +157,37 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
     result.status = DetectionStatus::kBadCloud;
     return;
   }
-  std::vector<Candidate> candidates;
+  std::vector<Candidate>& candidates = work.candidates;
   for (std::uint32_t i = 0; i < models.size(); ++i)
     searchCandidates(image, *models[i], i, config, deadline, lap, result, candidates);
   verifyCandidates(image, models, config, deadline, lap, candidates);
   const bool cut_short = deadline.passed();
-  const std::vector<SelectedPose> selected = selectCandidates(candidates, image.depth.size());
-  reportPoses(models, config, candidates, selected, image, result);
+  work.selected = selectCandidates(candidates, image.depth.size());
+  reportPoses(models, config, candidates, work.selected, image, result);
   lap("selection");
   setStatus(result, cut_short, config.time_limit_s);
+}
+/// A whole detection.
+DetectionResult detected(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
+                         const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,
+                         const std::atomic<bool>* stop, Work& work)
+{
+  if (models.empty()) throw std::invalid_argument("no model to look for: give at least one");
+  for (const PpfModel* model : models)
+  {
+    const std::string problem = modelProblem(*model, config, roi);
+    if (!problem.empty()) throw std::invalid_argument(problem);
+  }
+  StageClock clock;
+  const Deadline deadline(config.time_limit_s, stop);
+  DetectionResult result;
+  result.message = cloudProblem(cloud_camera, config);
+  if (!result.message.empty())
+    result.status = DetectionStatus::kBadCloud;
+  else
+    search(cloud_camera, models, config, roi, deadline, clock, work, result);
+  result.seconds = clock.total();
+  return result;
 }
 }  // namespace
 
@@ -196,21 +227,23 @@ DetectionResult Detector::detect(const PointCloud& cloud_camera,
                                  const std::optional<RegionOfInterest>& roi,
                                  const std::atomic<bool>* stop) const
 {
-  if (models.empty()) throw std::invalid_argument("no model to look for: give at least one");
-  for (const PpfModel* model : models)
+  Work work;
+  return detected(cloud_camera, models, config_, roi, stop, work);
+}
+
+PoseExplanation Detector::explain(const PointCloud& cloud_camera, const PpfModel& model,
+                                  const std::optional<RegionOfInterest>& roi,
+                                  const Eigen::Isometry3d& T_cloud_model) const
+{
+  Work work;
+  DetectionResult result = detected(cloud_camera, {&model}, config_, roi, nullptr, work);
+  if (result.status == DetectionStatus::kRoiEmpty || result.status == DetectionStatus::kBadCloud)
   {
-    const std::string problem = modelProblem(*model, config_, roi);
-    if (!problem.empty()) throw std::invalid_argument(problem);
+    PoseExplanation nothing;
+    nothing.result = std::move(result);
+    return nothing;
   }
-  StageClock clock;
-  const Deadline deadline(config_.time_limit_s, stop);
-  DetectionResult result;
-  result.message = cloudProblem(cloud_camera, config_);
-  if (!result.message.empty())
-    result.status = DetectionStatus::kBadCloud;
-  else
-    search(cloud_camera, models, config_, roi, deadline, clock, result);
-  result.seconds = clock.total();
-  return result;
+  return explainPose(work.prepared.image, model, config_, T_cloud_model, work.candidates,
+                     work.selected, std::move(result));
 }
 }  // namespace ppf_bin_picking

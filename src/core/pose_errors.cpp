@@ -60,21 +60,6 @@ std::vector<Eigen::Isometry3d> withTurns(const std::vector<Eigen::Isometry3d>& m
   return products;
 }
 
-/// The point nearest to all lines: where a sphere's axes meet.
-Eigen::Vector3d meetingPoint(const std::vector<SymmetryAxis>& lines)
-{
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const SymmetryAxis& line : lines)
-  {
-    const Eigen::Vector3d axis = line.axis.normalized();
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-    sum += across;
-    right += across * line.point;
-  }
-  return sum.ldlt().solve(right);
-}
-
 /// The difference of two poses, as the matrix that maps a point to the way between its two places.
 Eigen::Matrix<double, 3, 4> differenceOf(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 {
@@ -101,7 +86,7 @@ PoseErrors::PoseErrors(const std::vector<Eigen::Vector3d>& vertices,
   diameter_m_ = largestDistance(vertices);
   if (symmetries.sphere())
   {
-    sphere_center_ = meetingPoint(symmetries.revolutionAxes());
+    sphere_center_ = symmetries.sphereCenter();
     motions_ = {Eigen::Isometry3d::Identity()};
   }
   else if (symmetries.revolution())

@@ -67,8 +67,18 @@ void addOutline(const RangeImage& image, const RenderedPart& view, const Eigen::
   }
   sum /= std::max(1.0F, count);
 }
+}  // namespace
 
-/// The turns of a revolution or a sphere, about the part's centre.
+Vector6f motionJacobian(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction)
+{
+  // Spelt out: GCC 12 warns of Eigen's vectorised cross product.
+  Vector6f jacobian;
+  jacobian << arm.y() * direction.z() - arm.z() * direction.y(),
+      arm.z() * direction.x() - arm.x() * direction.z(),
+      arm.x() * direction.y() - arm.y() * direction.x(), direction;
+  return jacobian;
+}
+
 std::vector<Vector6f> invisibleMotions(const PpfModel& model,
                                        const Eigen::Isometry3f& T_camera_model)
 {
@@ -89,18 +99,6 @@ std::vector<Vector6f> invisibleMotions(const PpfModel& model,
   }
   return motions;
 }
-}  // namespace
-
-Vector6f motionJacobian(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction)
-{
-  // Spelt out: GCC 12 warns of Eigen's vectorised cross product.
-  Vector6f jacobian;
-  jacobian << arm.y() * direction.z() - arm.z() * direction.y(),
-      arm.z() * direction.x() - arm.x() * direction.z(),
-      arm.x() * direction.y() - arm.y() * direction.x(), direction;
-  return jacobian;
-}
-
 float PoseInformation::hold(const PpfModel& model, const Eigen::Isometry3f& T_camera_model) const
 {
   Matrix6f matrix = surface + outline;

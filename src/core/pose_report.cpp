@@ -1,9 +1,11 @@
 #include "ppf_bin_picking/core/pose_report.hpp"
 
 #include "ppf_bin_picking/core/ambiguity.hpp"
+#include "ppf_bin_picking/core/canonical_pose.hpp"
 #include "ppf_bin_picking/core/mismatch.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
+#include "ppf_bin_picking/core/pose_covariance.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 #include "ppf_bin_picking/core/reliability.hpp"
 
@@ -113,13 +115,15 @@ MismatchingRegion regionOf(const DetectedPose& pose, bool rivals_known, const Cl
   return region;
 }
 
-DetectedPose poseOfCandidate(const Candidate& candidate, double confirmed, double balance)
+DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, double confirmed,
+                             double balance)
 {
   DetectedPose pose;
   pose.model = candidate.model;
   pose.T_cloud_model = candidate.T_camera_model.cast<double>();
   pose.T_cloud_model.linear() =
       Eigen::Quaterniond(pose.T_cloud_model.linear()).normalized().toRotationMatrix();
+  pose.T_cloud_model = canonicalPose(pose.T_cloud_model, model.symmetries());
   pose.score = poseScore(candidate.evidence, confirmed);
   pose.votes = candidate.votes;
   pose.visible_fraction = visibleFraction(candidate.evidence);
@@ -154,6 +158,18 @@ std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfM
   return holds;
 }
 
+/// Writes each pose's covariance.
+void addCovariances(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                    const DetectorConfig& config, std::vector<DetectedPose>& poses)
+{
+  parallelFor(config.threads, poses.size(),
+              [&](std::size_t i)
+              {
+                poses[i].covariance =
+                    poseCovariance(image, *models[poses[i].model], poses[i].T_cloud_model, config);
+              });
+}
+
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
@@ -167,7 +183,8 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    [&](const Candidate& candidate)
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
-    DetectedPose pose = poseOfCandidate(*best, best->evidence.confirmed_weight, 0.0);
+    DetectedPose pose =
+        poseOfCandidate(*best, *models[best->model], best->evidence.confirmed_weight, 0.0);
     pose.reason = UnreliableReason::kSpread;
     result.regions.push_back(
         regionOf(pose, true, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
@@ -206,11 +223,12 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
-    DetectedPose pose = poseOfCandidate(candidate, selected[i].confirmed, selected[i].balance);
+    const PpfModel& model = *models[candidate.model];
+    DetectedPose pose =
+        poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
     pose.slide_share = ambiguities[i].slide_share;
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
-    const PpfModel& model = *models[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
     {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
@@ -226,6 +244,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       result.regions.push_back(regionOf(pose, rivals_known, share, model, config));
     result.poses.push_back(pose);
   }
+  addCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
   std::stable_sort(result.poses.begin(), result.poses.end(),
                    [](const DetectedPose& a, const DetectedPose& b)

@@ -35,34 +35,6 @@ Eigen::Vector3f scaledNormal(const TriangleMesh& mesh, std::size_t triangle)
   return (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
 }
 
-/// Samples by area: each triangle gets its share, laid out by a low-discrepancy sequence.
-std::vector<SurfaceSample> sampleTriangles(const TriangleMesh& mesh, float spacing_m)
-{
-  double area = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    area += 0.5 * scaledNormal(mesh, i).norm();
-  const double per_sample =
-      std::max(static_cast<double>(spacing_m) * spacing_m, area / static_cast<double>(kMaxSamples));
-  std::vector<SurfaceSample> samples;
-  double due = 0.5;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-  {
-    const auto& [a, b, c] = mesh.triangles[i];
-    due += 0.5 * scaledNormal(mesh, i).norm() / per_sample;
-    for (int k = 1; due >= 1.0; due -= 1.0, ++k)
-    {
-      double s = std::fmod(0.5 + 0.7548776662466927 * k, 1.0);  // R2 sequence
-      double t = std::fmod(0.5 + 0.5698402909980532 * k, 1.0);
-      if (s + t > 1) s = 1 - s, t = 1 - t;
-      const Eigen::Vector3f point = mesh.vertices[a] +
-                                    static_cast<float>(s) * (mesh.vertices[b] - mesh.vertices[a]) +
-                                    static_cast<float>(t) * (mesh.vertices[c] - mesh.vertices[a]);
-      samples.push_back({point, static_cast<std::uint32_t>(i)});
-    }
-  }
-  return samples;
-}
-
 /// Counts for each sample from how many views its front and its back are seen.
 void countViews(const TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
 {
@@ -149,9 +121,38 @@ Eigen::Vector3f boundingSphereCenter(const TriangleMesh& mesh)
   return center.cast<float>();
 }
 
+std::vector<MeshSample> sampleTriangles(const TriangleMesh& mesh, float spacing_m)
+{
+  double area = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    area += 0.5 * scaledNormal(mesh, i).norm();
+  const double per_sample =
+      std::max(static_cast<double>(spacing_m) * spacing_m, area / static_cast<double>(kMaxSamples));
+  std::vector<MeshSample> samples;
+  double due = 0.5;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    const auto& [a, b, c] = mesh.triangles[i];
+    due += 0.5 * scaledNormal(mesh, i).norm() / per_sample;
+    for (int k = 1; due >= 1.0; due -= 1.0, ++k)
+    {
+      double s = std::fmod(0.5 + 0.7548776662466927 * k, 1.0);  // R2 sequence
+      double t = std::fmod(0.5 + 0.5698402909980532 * k, 1.0);
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      const Eigen::Vector3f point = mesh.vertices[a] +
+                                    static_cast<float>(s) * (mesh.vertices[b] - mesh.vertices[a]) +
+                                    static_cast<float>(t) * (mesh.vertices[c] - mesh.vertices[a]);
+      samples.push_back({point, static_cast<std::uint32_t>(i)});
+    }
+  }
+  return samples;
+}
+
 OrientedPoints sampleVisibleSurface(TriangleMesh& mesh, float spacing_m)
 {
-  std::vector<SurfaceSample> samples = sampleTriangles(mesh, spacing_m);
+  std::vector<SurfaceSample> samples;
+  for (const MeshSample& sample : sampleTriangles(mesh, spacing_m))
+    samples.push_back({sample.point, sample.triangle});
   countViews(mesh, samples);
   orientTriangles(mesh, samples);
   const bool closed =

@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/core/symmetry.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -19,14 +21,6 @@ SymmetryAxis normalized(SymmetryAxis line)
         "a symmetry's axis has no length or is not finite: give a direction such as [0, 0, 1]");
   line.axis /= length;
   return line;
-}
-
-Eigen::Isometry3d turnAbout(const SymmetryAxis& line, double angle_rad)
-{
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = Eigen::AngleAxisd(angle_rad, line.axis).toRotationMatrix();
-  motion.translation() = line.point - motion.linear() * line.point;
-  return motion;
 }
 
 /// All products of the generators.
@@ -59,6 +53,28 @@ double angleBetween(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b)
 }
 }  // namespace
 
+Eigen::Isometry3d turnAbout(const SymmetryAxis& line, double angle_rad)
+{
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = Eigen::AngleAxisd(angle_rad, line.axis).toRotationMatrix();
+  motion.translation() = line.point - motion.linear() * line.point;
+  return motion;
+}
+
+Eigen::Vector3d meetingPoint(const std::vector<SymmetryAxis>& lines)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const SymmetryAxis& line : lines)
+  {
+    const Eigen::Vector3d axis = line.axis.normalized();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    sum += across;
+    right += across * line.point;
+  }
+  return sum.ldlt().solve(right);
+}
+
 SymmetryGroup::SymmetryGroup() : SymmetryGroup({}, {}) {}
 
 SymmetryGroup::SymmetryGroup(const std::vector<DiscreteSymmetry>& discrete,
@@ -78,6 +94,7 @@ SymmetryGroup::SymmetryGroup(const std::vector<DiscreteSymmetry>& discrete,
       revolution.begin(), revolution.end(),
       [&](const SymmetryAxis& other)
       { return std::abs(normalized(other).axis.dot(revolution_->axis)) < 1 - kSameMotion; });
+  if (sphere_) sphere_center_ = meetingPoint(revolution_axes_);
   for (const Eigen::Isometry3d& motion : motions_)
   {
     const Eigen::Vector3f image = (motion.linear() * revolution_->axis).cast<float>();

@@ -198,7 +198,7 @@ void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_
   if (file.mesh_checksum != mesh_checksum)
     throw InputError(file.path + " was trained from another mesh than " + part.mesh_file +
                      ", or in another unit: train the model again");
-  if (!sameSymmetries(file.model.data(), part))
+  if (part.states_symmetries && !sameSymmetries(file.model.data(), part))
     throw InputError(file.path + " was trained with other symmetries than " + part.source +
                      " states: train the model again");
 }

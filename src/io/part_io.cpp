@@ -1,5 +1,8 @@
 #include "ppf_bin_picking/io/part_io.hpp"
 
+#include "ppf_bin_picking/core/symmetry_check.hpp"
+#include "ppf_bin_picking/core/symmetry_search.hpp"
+
 #include "ppf_bin_picking/io/config_io.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
@@ -80,6 +83,7 @@ std::string idOf(const std::string& path)
 void readSymmetries(const YamlMap& map, PartDescription& part)
 {
   const double scale = metres(part.unit);
+  part.states_symmetries = map.has("symmetries_discrete") || map.has("symmetries_continuous");
   for (const YamlMap& item : map.maps("symmetries_discrete", {"axis", "angle_deg", "point"}))
     part.symmetries_discrete.push_back({readAxis(item, scale), readTurn(item)});
   for (const YamlMap& item : map.maps("symmetries_continuous", {"axis", "point"}))
@@ -129,5 +133,28 @@ PartDescription loadPart(const std::string& path, const PackageFinder& finder)
       part.detector[item.first.Scalar()] = item.second.Scalar();
   }
   return part;
+}
+
+PartSymmetries symmetriesOf(const PartDescription& part, const TriangleMesh& mesh)
+{
+  try
+  {
+    PartSymmetries symmetries;
+    symmetries.group = part.states_symmetries ? part.symmetries() : findSymmetries(mesh);
+    if (part.states_symmetries)
+    {
+      const std::string problem = symmetryProblem(mesh, symmetries.group);
+      if (!problem.empty()) throw InputError(part.source + ": " + problem);
+    }
+    symmetries.summary =
+        std::string("symmetries ") +
+        (part.states_symmetries ? "stated, and confirmed by the mesh: " : "found in the mesh: ") +
+        describe(symmetries.group, metres(part.unit));
+    return symmetries;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw InputError(part.mesh_file + ": " + error.what());
+  }
 }
 }  // namespace ppf_bin_picking

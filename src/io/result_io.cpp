@@ -32,6 +32,18 @@ typename Values::value_type fromWord(const Values& values, const std::string& wo
   throw std::invalid_argument("'" + word + "' is no word of such a file");
 }
 
+/// Row by row; symmetric, so that columns will do.
+std::vector<double> numbersOf(const Matrix6d& matrix)
+{
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
+Matrix6d covarianceOf(const json& item)
+{
+  if (!item.contains("covariance")) return unknownCovariance();
+  return Matrix6d(item.at("covariance").get<std::array<double, 36>>().data());
+}
+
 json toJson(const DetectedPose& pose)
 {
   return {{"model", pose.model},
@@ -52,7 +64,8 @@ json toJson(const DetectedPose& pose)
           {"looked_through", pose.looked_through},
           {"outline_broken", pose.outline_broken},
           {"claimed", pose.claimed},
-          {"reliability", pose.reliability}};
+          {"reliability", pose.reliability},
+          {"covariance", numbersOf(pose.covariance)}};
 }
 
 json toJson(const MismatchingRegion& region)
@@ -97,6 +110,7 @@ DetectedPose poseFrom(const json& item)
   pose.outline_broken = item.value("outline_broken", 0.0);
   pose.claimed = item.value("claimed", 0.0);
   pose.reliability = item.value("reliability", 0.0);
+  pose.covariance = covarianceOf(item);
   return pose;
 }
 

@@ -135,11 +135,21 @@ ppf_bin_picking::PointCloud toPointCloud(const PointCloud2& cloud,
   return converted;
 }
 
-geometry_msgs::PoseWithCovariance toPoseOfUnknownCovariance(const Eigen::Isometry3d& T_frame_model)
+geometry_msgs::PoseWithCovariance toPoseWithCovariance(const Eigen::Isometry3d& T_frame_cloud,
+                                                       const Eigen::Isometry3d& T_cloud_model,
+                                                       const ppf_bin_picking::Matrix6d& covariance)
 {
+  ppf_bin_picking::Matrix6d turned = covariance;
+  if (covariance(0, 0) >= 0)
+  {
+    ppf_bin_picking::Matrix6d rotation = ppf_bin_picking::Matrix6d::Zero();
+    rotation.topLeftCorner<3, 3>() = T_frame_cloud.linear();
+    rotation.bottomRightCorner<3, 3>() = T_frame_cloud.linear();
+    turned = rotation * covariance * rotation.transpose();
+  }
   geometry_msgs::PoseWithCovariance pose;
-  pose.pose = tf2::toMsg(T_frame_model);
-  pose.covariance[0] = -1.0;  // boost::array members of a message start as zeros
+  pose.pose = tf2::toMsg(T_frame_cloud * T_cloud_model);
+  std::copy(turned.data(), turned.data() + turned.size(), pose.covariance.begin());
   return pose;
 }
 }  // namespace ppf_bin_picking_ros

@@ -16,7 +16,7 @@ msg::PickablePose toMessage(const DetectionView& view, const ppf_bin_picking::De
   msg::PickablePose message;
   message.id = part.id + "/" + std::to_string(rank);
   message.model_id = part.id;
-  message.pose = toPoseOfUnknownCovariance(T_target_model);
+  message.pose = toPoseWithCovariance(view.T_target_cloud, pose.T_cloud_model, pose.covariance);
   for (const Eigen::Isometry3d& T_model_pick : part.T_model_picks)
     message.picks.push_back(tf2::toMsg(T_target_model * T_model_pick));
   message.score = static_cast<float>(pose.score);

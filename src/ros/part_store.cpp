@@ -39,7 +39,13 @@ PpfModel modelOf(const PartDescription& part, const DetectorConfig& config)
   const ppf_bin_picking::LoadedMesh loaded = ppf_bin_picking::loadMesh(part.mesh_file, part.unit);
   for (const std::string& warning : loaded.warnings)
     ROS_WARN_STREAM(warning);
-  if (part.model_file.empty()) return PpfModel::train(loaded.mesh, part.symmetries(), config.model);
+  if (part.model_file.empty())
+  {
+    const ppf_bin_picking::PartSymmetries symmetries =
+        ppf_bin_picking::symmetriesOf(part, loaded.mesh);
+    ROS_INFO_STREAM("Part '" << part.model_id << "': " << symmetries.summary);
+    return PpfModel::train(loaded.mesh, symmetries.group, config.model);
+  }
   ppf_bin_picking::ModelFile file = ppf_bin_picking::loadModel(part.model_file);
   ppf_bin_picking::requireFit(file, part, ppf_bin_picking::meshChecksum(loaded.mesh));
   return std::move(file.model);

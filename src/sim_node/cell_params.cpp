@@ -123,8 +123,8 @@ LoadedCellPart loadCellPart(const CellParams& params)
   const std::string folder = cacheFolder(params);
   result.part.hulls =
       folder.empty() ? convexHulls(loaded.mesh) : cachedConvexHulls(loaded.mesh, folder);
+  result.part.symmetries = symmetriesOf(description, loaded.mesh).group;
   result.part.mesh = std::move(loaded.mesh);
-  result.part.symmetries = description.symmetries();
   return result;
 }
 }  // namespace ppf_bin_picking

@@ -6,10 +6,13 @@
 #include "ppf_bin_picking/io/model_io.hpp"
 #include "ppf_bin_picking/io/result_io.hpp"
 
+#include "pose_explanation.hpp"
 #include "tool_support.hpp"
 
 #include <chrono>
 #include <iomanip>
+#include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace ppf_bin_picking
@@ -23,6 +26,8 @@ struct Options
   std::string model;
   int threads = -1;  ///< -1: as the configuration says.
   std::string output;
+  std::string explain;       ///< A pose to explain ...
+  bool has_explain = false;  ///< ... if there is one.
 };
 
 /// The model file's content, or a model trained now and the seconds it took.
@@ -54,6 +59,8 @@ void reportTimes(const DetectionResult& result)
 
 void detectPoses(const Options& options)
 {
+  std::optional<Eigen::Isometry3d> explained;
+  if (options.has_explain) explained = poseFromText(options.explain);
   requireWritable(options.output);
   ToolPart part = options.part.load();
   if (options.threads >= 0) part.config.threads = options.threads;
@@ -62,11 +69,19 @@ void detectPoses(const Options& options)
   ResultFile file;
   file.frame_id = scene.frame_id;
   const PpfModel model = modelFor(part, options, file.train_seconds);
-  file.result = detector.detect(scene.cloud, model, scene.roi);
+  PoseExplanation explanation;
+  if (explained)
+  {
+    explanation = detector.explain(scene.cloud, model, scene.roi, *explained);
+    file.result = explanation.result;
+  }
+  else
+    file.result = detector.detect(scene.cloud, model, scene.roi);
   if (file.result.status == DetectionStatus::kBadCloud) throw InputError(file.result.message);
   writeFile(options.output, toJson(file));
   reportTimes(file.result);
   report(file.result.message);
+  if (explained) std::cout << explanationText(explanation, part.config);
 }
 }  // namespace
 }  // namespace ppf_bin_picking
@@ -82,6 +97,14 @@ int main(int argc, char** argv)
   app.add_option("--threads", options.threads,
                  "Threads instead of the configuration's; 0: one per core")
       ->check(CLI::Range(0, 1024));
+  CLI::Option* explain =
+      app.add_option("--explain", options.explain,
+                     "Pose \"x y z qx qy qz qw\", T_cloud_model in metres, to explain");
   app.add_option("--output", options.output, "Result to write, .json")->required();
-  return runTool(app, argc, argv, [&] { detectPoses(options); });
+  return runTool(app, argc, argv,
+                 [&]
+                 {
+                   options.has_explain = explain->count() > 0;
+                   detectPoses(options);
+                 });
 }

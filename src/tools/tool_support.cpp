@@ -78,11 +78,13 @@ ToolPart PartOptions::load() const
 
 PpfModel trainedModel(const ToolPart& part)
 {
-  PpfModel model = PpfModel::train(part.mesh, part.description.symmetries(), part.config.model);
+  const PartSymmetries symmetries = symmetriesOf(part.description, part.mesh);
+  PpfModel model = PpfModel::train(part.mesh, symmetries.group, part.config.model);
   std::ostringstream line;
   line << "trained " << part.description.model_id << ": diameter " << model.diameter() << " m, "
        << model.data().points.size() << " points, " << model.data().entries.size() << " pairs";
   report(line.str());
+  report(symmetries.summary);
   return model;
 }
 

@@ -8,6 +8,7 @@ add_library(
   ${tools_dir}/evaluation_summary.cpp
   ${tools_dir}/pose_check.cpp
   ${tools_dir}/pose_drawing.cpp
+  ${tools_dir}/pose_explanation.cpp
   ${tools_dir}/pose_judgement.cpp
   ${tools_dir}/tool_support.cpp)
 target_include_directories(${PROJECT_NAME}_tools PUBLIC ${tools_dir})

@@ -91,6 +91,46 @@ TEST_F(DetectorTest, givesTheSameBytesForAnyNumberOfThreads)
   }
 }
 
+TEST_F(DetectorTest, explainsTheRightPoseAsItsBest)
+{
+  const PoseExplanation right =
+      Detector(coarseConfig()).explain(cloud(), bracket_, roi_, T_camera_bracket_);
+  expectSamePoses(right.result, detect(coarseConfig()));
+  EXPECT_EQ(right.fate, PoseFate::kReliable);
+  EXPECT_EQ(right.rank, 0);
+  EXPECT_EQ(right.owner, 0);
+  EXPECT_GT(right.owned_share, 0.9);
+  EXPECT_GT(right.surface.hypotheses, 0U);
+  EXPECT_GT(right.boundary.hypotheses, 0U);
+  EXPECT_GE(right.surface.best_votes, right.surface.votes / right.surface.hypotheses);
+  EXPECT_GT(right.candidates, 0U);
+  EXPECT_GT(right.score, 0.9);
+  EXPECT_LT(right.refined_shift_m, 0.02 * bracket_.diameter());
+}
+
+TEST_F(DetectorTest, explainsAWrongPoseByWhatStoppedIt)
+{
+  const Detector detector(coarseConfig());
+  const PoseExplanation in_the_air =
+      detector.explain(cloud(), bracket_, roi_, poseOf(0.3, {1, 1, 0}, {0.02, 0, 0.4}));
+  EXPECT_EQ(in_the_air.fate, PoseFate::kNoVotes);
+  EXPECT_GT(in_the_air.evidence.looked_through, 10 * in_the_air.evidence.confirmed_weight);
+  EXPECT_EQ(in_the_air.rank, -1);
+  // End for end its plate fits, and the pose that stands there owns that.
+  const PoseExplanation turned = detector.explain(
+      cloud(), bracket_, roi_, T_camera_bracket_ * poseOf(M_PI, {0, 0, 1}, {0, 0, 0}));
+  EXPECT_NE(turned.fate, PoseFate::kReliable);
+  EXPECT_EQ(turned.rank, -1);
+  EXPECT_EQ(turned.owner, 0);
+  EXPECT_GT(turned.owned_share, 0.5);
+  EXPECT_LT(turned.score, 0.7);
+  RegionOfInterest nowhere = roi_;
+  nowhere.T_cloud_box.translation().x() += 1;
+  const PoseExplanation outside = detector.explain(cloud(), bracket_, nowhere, T_camera_bracket_);
+  EXPECT_EQ(outside.fate, PoseFate::kNotLookedFor);
+  EXPECT_EQ(outside.result.status, DetectionStatus::kRoiEmpty);
+}
+
 TEST_F(DetectorTest, followsATurnOfTheSceneAboutTheLineOfSight)
 {
   for (const double turn_rad : {0.4, M_PI / 2, 3.0})

@@ -2,6 +2,7 @@
 set(core_tests
     test_ambiguity
     test_boundary
+    test_canonical_pose
     test_dbscan
     test_detector
     test_detector_config
@@ -14,6 +15,7 @@ set(core_tests
     test_parallel
     test_pca
     test_pose_clustering
+    test_pose_covariance
     test_pose_errors
     test_pose_information
     test_pose_refinement
@@ -23,8 +25,11 @@ set(core_tests
     test_range_image
     test_reliability
     test_selection
+    test_self_distance
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry
+    test_symmetry_check
+    test_symmetry_search
     test_verification
     test_verification_relief)

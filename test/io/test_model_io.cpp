@@ -185,6 +185,8 @@ TEST_F(ModelFileTest, isCheckedAgainstThePart)
   PartDescription part;
   part.source = "part.yaml";
   part.mesh_file = "model.stl";
+  EXPECT_NO_THROW(requireFit(file, part, kMeshChecksum));  // states none: the model's hold
+  part.states_symmetries = true;
   part.symmetries_discrete = halfTurn().generators();
   EXPECT_NO_THROW(requireFit(file, part, kMeshChecksum));
   EXPECT_EQ(inputError([&] { requireFit(file, part, kMeshChecksum + 1); }),

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/io/part_io.hpp"
 
 #include "support/files.hpp"
+#include "support/shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,28 @@ TEST_F(PartFile, takesAnAngleForTheFractionOfATurnThatItsDecimalsMean)
       "{axis: [0, 0, 1], angle_deg: 240}]\n");
   EXPECT_NEAR(part.symmetries_discrete[0].angle_rad, 2 * M_PI / 7, 1e-12);
   EXPECT_NEAR(part.symmetries_discrete[1].angle_rad, 4 * M_PI / 3, 1e-12);
+}
+
+TEST_F(PartFile, withoutSymmetriesHasThoseOfItsMesh)
+{
+  const TriangleMesh box = boxMesh({0.06F, 0.04F, 0.02F});
+  const PartSymmetries found = symmetriesOf(load("unit: mm\n"), box);
+  EXPECT_EQ(found.group.motions().size(), 4U);
+  expectHolds(found.summary, "symmetries found in the mesh: 1/2 turn about ");
+  const PartSymmetries none = symmetriesOf(load("{unit: mm, symmetries_discrete: []}"), box);
+  EXPECT_EQ(none.group.motions().size(), 1U);
+  expectHolds(none.summary, "symmetries stated, and confirmed by the mesh: none");
+}
+
+TEST_F(PartFile, isRefusedIfItsMeshHasNotItsSymmetries)
+{
+  const PartDescription part =
+      load("{unit: mm, symmetries_discrete: [{axis: [0, 0, 1], angle_deg: 90}]}");
+  expectHolds(inputError(
+                  [&] {
+                    symmetriesOf(part, boxMesh({0.06F, 0.04F, 0.02F}));
+                  }),
+              "the mesh is not symmetric to the 1/4 turn about the axis [0, 0, 1]");
 }
 
 TEST_F(PartFile, namesWhatIsWrong)

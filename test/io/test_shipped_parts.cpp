@@ -1,5 +1,7 @@
 // The parts of the package's own: each file of config/parts with its mesh.
 #include "ppf_bin_picking/core/ppf_model.hpp"
+#include "ppf_bin_picking/core/symmetry_check.hpp"
+#include "ppf_bin_picking/core/symmetry_search.hpp"
 
 #include "ppf_bin_picking/io/mesh_io.hpp"
 #include "ppf_bin_picking/io/part_io.hpp"
@@ -105,6 +107,19 @@ TEST_P(ShippedPart, hasNoSymmetryThatItsFileDoesNotName)
       EXPECT_TRUE(differs(motion, 10 * kFacet_m))
           << "1/" << parts_of_a_turn << " turn about " << axis.transpose();
     }
+}
+
+TEST_P(ShippedPart, hasTheSymmetriesThatItsMeshShows)
+{
+  const SymmetryGroup stated = part_.symmetries(), found = findSymmetries(mesh_);
+  EXPECT_EQ(symmetryProblem(mesh_, stated), "");
+  EXPECT_EQ(found.sphere(), stated.sphere());
+  EXPECT_EQ(found.revolution().has_value(), stated.revolution().has_value());
+  ASSERT_EQ(found.motions().size(), stated.motions().size()) << describe(found, 0.001);
+  for (const Eigen::Isometry3d& motion : found.motions())
+    EXPECT_LT(stated.rotationDistance(Eigen::Quaternionf::Identity(),
+                                      Eigen::Quaternionf(motion.linear().cast<float>())),
+              0.002);
 }
 
 TEST_P(ShippedPart, isGrippedByItsPicks)

@@ -107,6 +107,24 @@ TEST_F(CommandLine, givesTheSameBytesTwice)
   EXPECT_EQ(stripped(), first);
 }
 
+TEST_F(CommandLine, explainsAPose)
+{
+  const Outcome outcome = run("detect_poses", detect({"--explain", "0.1, 0 5.5 0 0 0.2 2"}));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* line : {"surface: ", "boundary: ", "candidates: ", "visible: ", "confirmed: ",
+                           "contradicted: ", "missing: ", "outline: ", "score: ", "refinement: ",
+                           "coincides: ", "owner: ", "verdict:      failed at "})
+    expectHolds(outcome.out, line);
+  EXPECT_TRUE(std::filesystem::exists(result_));
+}
+
+TEST_F(CommandLine, refusesToExplainWhatIsNoPose)
+{
+  for (const char* text : {"", "1 2 3", "0 0 1 0 0 0 1 7", "0 0 one 0 0 0 1", "0 0 nan 0 0 0 1"})
+    expectRefused("detect_poses", detect({"--explain", text}), "give seven numbers");
+  expectRefused("detect_poses", detect({"--explain", "0 0 1 0 0 0 0"}), "has no length");
+}
+
 TEST_F(CommandLine, explainsItself)
 {
   for (const char* tool : {"train_model", "detect_poses", "check_poses"})

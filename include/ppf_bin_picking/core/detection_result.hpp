@@ -63,6 +63,16 @@ struct HypothesisCluster
   bool mismatching = false;  ///< The box's sides add up to more than max_spread_rel diameters.
 };
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// -1 in the first entry, else 0.
+inline Matrix6d unknownCovariance()
+{
+  Matrix6d unknown = Matrix6d::Zero();
+  unknown(0, 0) = -1;
+  return unknown;
+}
+
 /// A pose with what the cloud says of it.
 struct DetectedPose
 {
@@ -89,6 +99,9 @@ struct DetectedPose
   double outline_broken = 0;  ///< Of its outline in sight, the share where the cloud does not end.
   double claimed = 0;         ///< Of the surface it expects, the share better poses explain. [0, 1]
   double reliability = 0;     ///< Probability that it is right; see reliability.hpp. [0, 1]
+  /// Of x y z rx ry rz [m, rad]: shifts of the mesh's origin and turns about it, along the cloud
+  /// frame's axes; -1 in its first entry while unknown. See pose_covariance.hpp.
+  Matrix6d covariance = unknownCovariance();
   bool reliable = false;
   UnreliableReason reason = UnreliableReason::kNone;  ///< kNone if and only if reliable.
   std::int32_t cluster = -1;  ///< The cluster it came from; -1 under greedy clustering.

@@ -3,6 +3,7 @@
 
 #include "ppf_bin_picking/core/detection_result.hpp"
 #include "ppf_bin_picking/core/detector_config.hpp"
+#include "ppf_bin_picking/core/explanation.hpp"
 #include "ppf_bin_picking/core/point_cloud.hpp"
 #include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/region_of_interest.hpp"
@@ -42,6 +43,14 @@ public:
   DetectionResult detect(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
                          const std::optional<RegionOfInterest>& roi = std::nullopt,
                          const std::atomic<bool>* stop = nullptr) const;
+
+  /// Detects one part and says what became of a given pose.
+  /// @param T_cloud_model  The pose in question [m].
+  /// @return Its status alone where no detection could be made.
+  /// @throw std::invalid_argument as detect().
+  PoseExplanation explain(const PointCloud& cloud_camera, const PpfModel& model,
+                          const std::optional<RegionOfInterest>& roi,
+                          const Eigen::Isometry3d& T_cloud_model) const;
 
   const DetectorConfig& config() const { return config_; }
 

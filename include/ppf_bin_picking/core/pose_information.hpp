@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <vector>
+
 namespace ppf_bin_picking
 {
 using Vector6f = Eigen::Matrix<float, 6, 1>;
@@ -21,6 +23,10 @@ constexpr float kLeverRel = 0.35F;
 /// @param arm        From the centre to the point, in levers.
 /// @param direction  Unit length.
 Vector6f motionJacobian(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction);
+
+/// The turns of a revolution or a sphere, as small motions about the part's centre, unit length.
+std::vector<Vector6f> invisibleMotions(const PpfModel& model,
+                                       const Eigen::Isometry3f& T_camera_model);
 
 /// What the measurements of one image say about small motions of a pose: turns about the part's
 /// centre and shifts, in the camera frame. J is motionJacobian along the surface's normal or,

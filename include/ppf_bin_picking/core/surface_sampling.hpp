@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -29,6 +30,18 @@ float meshDiameter(const TriangleMesh& mesh);
 
 /// Centre of a sphere around all vertices, within a per mille of the smallest one's radius [m].
 Eigen::Vector3f boundingSphereCenter(const TriangleMesh& mesh);
+
+/// A point on a mesh.
+struct MeshSample
+{
+  Eigen::Vector3f point;   ///< [m]
+  std::uint32_t triangle;  ///< The triangle it lies on.
+};
+
+/// Samples all of a mesh uniformly by area, at most 400000 points: each triangle gets its share,
+/// laid out by a low-discrepancy sequence. In the order of the triangles.
+/// @param spacing_m  Distance of neighbouring samples, about.
+std::vector<MeshSample> sampleTriangles(const TriangleMesh& mesh, float spacing_m);
 
 /// Samples the outside of a mesh uniformly by area. A point counts as outside if one of many
 /// viewpoints around the part sees it; its normal points to the side it is seen from, whatever the

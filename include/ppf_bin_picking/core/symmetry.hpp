@@ -22,6 +22,14 @@ struct DiscreteSymmetry
   double angle_rad = 0.0;  ///< Turn about the line that maps the part onto itself.
 };
 
+/// The turn about a line, T_model_model [m].
+/// @param line  Its axis has unit length.
+Eigen::Isometry3d turnAbout(const SymmetryAxis& line, double angle_rad);
+
+/// The point nearest to all of at least two lines that are not parallel: where a sphere's axes
+/// meet [m].
+Eigen::Vector3d meetingPoint(const std::vector<SymmetryAxis>& lines);
+
 /// All symmetries of a part: the group that the discrete generators span, times at most one
 /// revolution. (Two different revolution axes make a sphere: then only the positions of two poses
 /// are compared.)
@@ -43,6 +51,9 @@ public:
   const std::optional<SymmetryAxis>& revolution() const { return revolution_; }
   bool sphere() const { return sphere_; }
 
+  /// Where a sphere's axes meet, mesh frame [m]; meaningless for other parts.
+  const Eigen::Vector3d& sphereCenter() const { return sphere_center_; }
+
   /// As given to the constructor, for files and messages.
   const std::vector<DiscreteSymmetry>& generators() const { return generators_; }
   const std::vector<SymmetryAxis>& revolutionAxes() const { return revolution_axes_; }
@@ -60,5 +71,6 @@ private:
       axis_images_;  ///< Images of the revolution axis under motions_, deduplicated.
   std::optional<SymmetryAxis> revolution_;
   bool sphere_ = false;
+  Eigen::Vector3d sphere_center_ = Eigen::Vector3d::Zero();
 };
 }  // namespace ppf_bin_picking

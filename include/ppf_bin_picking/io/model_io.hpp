@@ -35,6 +35,7 @@ ModelFile loadModel(const std::string& path);
 /// Checks that a file's model was trained from the part as it is described now. (Its parameters are
 /// modelProblem()'s matter.)
 /// @param mesh_checksum  meshChecksum() of the part's mesh.
-/// @throw InputError if it was trained from another mesh or unit, or with other symmetries.
+/// @throw InputError if it was trained from another mesh or unit, or with other symmetries than
+///        the part file states; a model's own are taken where it states none.
 void requireFit(const ModelFile& file, const PartDescription& part, std::uint32_t mesh_checksum);
 }  // namespace ppf_bin_picking

@@ -3,6 +3,7 @@
 
 #include "ppf_bin_picking/core/detector_config.hpp"
 #include "ppf_bin_picking/core/symmetry.hpp"
+#include "ppf_bin_picking/core/triangle_mesh.hpp"
 
 #include "ppf_bin_picking/io/length_unit.hpp"
 #include "ppf_bin_picking/io/package_path.hpp"
@@ -30,15 +31,16 @@ struct PartDescription
   LengthUnit unit = LengthUnit::kMetre;  ///< Of the mesh file.
   std::vector<DiscreteSymmetry> symmetries_discrete;
   std::vector<SymmetryAxis> symmetries_continuous;
-  std::vector<Pick> picks;  ///< Best first.
-  std::string model_file;   ///< Path of the trained model; empty: to be trained.
+  bool states_symmetries = false;  ///< Either key is there, be its list empty.
+  std::vector<Pick> picks;         ///< Best first.
+  std::string model_file;          ///< Path of the trained model; empty: to be trained.
   std::map<std::string, std::string> detector;  ///< Settings that differ for this part. Checked.
   std::string source;                           ///< The part file, for messages.
 
   /// A configuration with the settings that differ for this part.
   DetectorConfig adapted(const DetectorConfig& config) const;
 
-  /// Never throws for a description that loadPart() returned.
+  /// Those that the file states. Never throws for a description that loadPart() returned.
   SymmetryGroup symmetries() const { return {symmetries_discrete, symmetries_continuous}; }
 };
 
@@ -46,4 +48,16 @@ struct PartDescription
 /// `package://name/path`.
 /// @throw InputError naming the file, the key and the remedy; also if the symmetries are no group.
 PartDescription loadPart(const std::string& path, const PackageFinder& finder = findPackage);
+
+/// The symmetries to work with: those that the part file states, checked against the mesh, or, if
+/// it states none, those found in it.
+struct PartSymmetries
+{
+  SymmetryGroup group;
+  std::string summary;  ///< Where they are from and what they are, points in the mesh's unit.
+};
+
+/// @param mesh  Of the part [m].
+/// @throw InputError if the mesh has not a symmetry that the file states, or no surface.
+PartSymmetries symmetriesOf(const PartDescription& part, const TriangleMesh& mesh);
 }  // namespace ppf_bin_picking

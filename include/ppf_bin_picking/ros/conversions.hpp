@@ -1,6 +1,7 @@
 /// @file ROS messages to and from the types of the core.
 #pragma once
 
+#include "ppf_bin_picking/core/detection_result.hpp"
 #include "ppf_bin_picking/core/detector_config.hpp"
 #include "ppf_bin_picking/core/point_cloud.hpp"
 
@@ -27,7 +28,12 @@ std::string messageProblem(const sensor_msgs::PointCloud2& cloud,
 ppf_bin_picking::PointCloud toPointCloud(const sensor_msgs::PointCloud2& cloud,
                                          const ppf_bin_picking::DetectorConfig& config);
 
-/// A pose whose covariance is unknown: -1 in its first entry, 0 in the others.
-/// @param T_frame_model  [m]
-geometry_msgs::PoseWithCovariance toPoseOfUnknownCovariance(const Eigen::Isometry3d& T_frame_model);
+/// A pose of one frame in another, with its covariance.
+/// @param T_frame_cloud  [m]
+/// @param T_cloud_model  [m]
+/// @param covariance     Of x y z rx ry rz along the cloud's axes [m, rad]; one that is unknown (-1
+///                       in its first entry) stays as it is.
+geometry_msgs::PoseWithCovariance toPoseWithCovariance(const Eigen::Isometry3d& T_frame_cloud,
+                                                       const Eigen::Isometry3d& T_cloud_model,
+                                                       const ppf_bin_picking::Matrix6d& covariance);
 }  // namespace ppf_bin_picking_ros
