@@ -36,6 +36,7 @@ add_library(
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
   ${core_dir}/selection.cpp
+  ${core_dir}/sparse_fit.cpp
   ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp

@@ -22,6 +22,7 @@ set(core_tests
     test_ppf_model
     test_range_image
     test_selection
+    test_sparse_fit
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry
