@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/boundary_table.hpp"
 
+#include "ppf_bin_picking/core/orbits.hpp"
 #include "ppf_bin_picking/core/viewpoints.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ constexpr float kJumpRel = 0.03F;             // of the diameter
 constexpr float kSpacingRel = 0.04F;          // of the diameter
 constexpr float kCellRel = 0.08F;             // of the diameter
 constexpr float kShortestRel = 0.1F;          // of the diameter
+constexpr float kTieRel = 1e-4F;              // of the diameter
 constexpr int kHalfCells = 13;                // 1 / kCellRel, rounded
 constexpr std::uint32_t kCells = 2 * kHalfCells + 1;
 constexpr std::uint32_t kAxes = 6;  // both ways along each
@@ -148,16 +150,22 @@ std::optional<std::uint32_t> BoundaryQuantizer::key(const BoundaryPoint& first,
 }
 
 BoundaryTable buildBoundaryTable(const RenderableMesh& mesh, const Eigen::Vector3f& center,
-                                 float diameter_m)
+                                 float diameter_m, const SymmetryGroup& symmetries)
 {
   BoundaryTable table;
   const std::vector<std::vector<std::uint32_t>> views =
       pointsOfViews(mesh, center, diameter_m, table.points);
   const BoundaryQuantizer quantizer(diameter_m);
+  std::vector<Eigen::Vector3f> places;
+  for (const BoundaryPoint& boundary : table.points)
+    places.push_back(boundary.point);
+  const std::vector<std::uint8_t> wanted =
+      inFundamentalDomain(symmetries, center, kTieRel * diameter_m, places);
   std::vector<std::uint64_t> pairs;  // key << 32 | first point
   for (const std::vector<std::uint32_t>& seen : views)
     for (const std::uint32_t i : seen)
     {
+      if (!wanted[i]) continue;
       const Eigen::Matrix3f frame = table.points[i].frame();
       for (const std::uint32_t j : seen)
         if (const auto key = quantizer.key(table.points[i], frame, table.points[j]))

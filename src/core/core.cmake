@@ -21,6 +21,7 @@ add_library(
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
   ${core_dir}/normals.cpp
+  ${core_dir}/orbits.cpp
   ${core_dir}/organised_image.cpp
   ${core_dir}/outline.cpp
   ${core_dir}/parallel.cpp

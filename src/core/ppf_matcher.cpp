@@ -128,7 +128,8 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
     if (deadline.passed()) return;
     thread_local Accumulator accumulator;
     const auto reference = static_cast<std::uint32_t>(i * scene.size() / references);
-    accumulator.reset(data.points.size(), static_cast<std::uint32_t>(config.model.n_angle));
+    accumulator.reset(std::max<std::size_t>(1, model.references()),
+                      static_cast<std::uint32_t>(config.model.n_angle));
     castVotes(matching, reference, accumulator);
     peaks[i] = distinctPeaks(strongestCells(accumulator.cells(), config.peak_ratio), model, config,
                              [&](std::uint32_t cell)

@@ -9,6 +9,7 @@ set(core_tests
     test_model_renderer
     test_neighbor_search
     test_normals
+    test_orbits
     test_outline
     test_paper_experiments
     test_parallel
