@@ -28,8 +28,8 @@ constexpr std::uint32_t kAxes = 6;  // both ways along each
 /// The axis that a direction is nearest to.
 std::uint32_t nearestAxis(const Eigen::Vector3f& direction)
 {
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
+  const float x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
+  const int axis = z > x && z > y ? 2 : (y > x ? 1 : 0);  // of equal ones the first
   return static_cast<std::uint32_t>(2 * axis + (direction(axis) < 0 ? 1 : 0));
 }
 
@@ -139,12 +139,12 @@ std::optional<std::uint32_t> BoundaryQuantizer::key(const BoundaryPoint& first,
                                                     const BoundaryPoint& second) const
 {
   const Eigen::Vector3f apart = second.point - first.point;
-  const float distance_m = apart.norm();
-  if (distance_m < shortest_m_ || distance_m > longest_m_) return std::nullopt;
+  const float squared = apart.squaredNorm();
+  if (squared < shortest_m_ * shortest_m_ || squared > longest_m_ * longest_m_) return std::nullopt;
   const Eigen::Vector3f place = frame.transpose() * apart * inverse_cell_;
   std::uint32_t key = 0;
   for (int k = 0; k < 3; ++k)
-    key = key * kCells + static_cast<std::uint32_t>(kHalfCells + std::lround(place(k)));
+    key = key * kCells + static_cast<std::uint32_t>(place(k) + (kHalfCells + 0.5F));
   key = key * kAxes + nearestAxis(frame.transpose() * second.normal);
   return key * kAxes + nearestAxis(frame.transpose() * second.outward);
 }
