@@ -8,9 +8,12 @@
 
 #include "tool_support.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -22,6 +25,7 @@ struct Options
   SceneOptions scene;
   std::string model;
   int threads = -1;  ///< -1: as the configuration says.
+  int repeat = 1;    ///< Detections of the same cloud.
   std::string output;
 };
 
@@ -52,6 +56,26 @@ void reportTimes(const DetectionResult& result)
   report(text.str());
 }
 
+/// The time that a share of the detections stay within.
+double quantile(const std::vector<double>& ascending, double share)
+{
+  const double rank = std::ceil(share * static_cast<double>(ascending.size()));
+  return ascending[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+}
+
+/// What several detections of the same cloud took.
+void reportDistribution(std::vector<double> seconds)
+{
+  const double first = seconds.front();
+  std::sort(seconds.begin(), seconds.end());
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << seconds.size() << " detections: first "
+       << first * 1000 << " ms, least " << seconds.front() * 1000 << ", median "
+       << quantile(seconds, 0.5) * 1000 << ", 95 % within " << quantile(seconds, 0.95) * 1000
+       << ", most " << seconds.back() * 1000;
+  report(text.str());
+}
+
 void detectPoses(const Options& options)
 {
   requireWritable(options.output);
@@ -62,10 +86,16 @@ void detectPoses(const Options& options)
   ResultFile file;
   file.frame_id = scene.frame_id;
   const PpfModel model = modelFor(part, options, file.train_seconds);
-  file.result = detector.detect(scene.cloud, model, scene.roi);
+  std::vector<double> seconds;
+  for (int i = 0; i < options.repeat; ++i)
+  {
+    file.result = detector.detect(scene.cloud, model, scene.roi);
+    seconds.push_back(file.result.seconds);
+  }
   if (file.result.status == DetectionStatus::kBadCloud) throw InputError(file.result.message);
   writeFile(options.output, toJson(file));
   reportTimes(file.result);
+  if (options.repeat > 1) reportDistribution(seconds);
   report(file.result.message);
 }
 }  // namespace
@@ -82,6 +112,10 @@ int main(int argc, char** argv)
   app.add_option("--threads", options.threads,
                  "Threads instead of the configuration's; 0: one per core")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--repeat", options.repeat,
+                 "Detect so many times and print the distribution of the times; the result is the "
+                 "last one's")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--output", options.output, "Result to write, .json")->required();
   return runTool(app, argc, argv, [&] { detectPoses(options); });
 }
