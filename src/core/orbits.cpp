@@ -16,6 +16,9 @@ constexpr float kSameNormal = 0.8660254F;  // cosine of 30 degrees
 constexpr float kOnAxis = 0.5F;            // steps from the axis within which no side is known
 constexpr float kTie = 1e-3F;              // steps
 
+// One would do, but the orientations voted for would be turns of one: the distribution shows them.
+constexpr std::size_t kOfSphere = 32;
+
 /// What a revolution leaves of a sample: place and normal in the half plane through the axis, and
 /// across it.
 struct Circle
@@ -93,7 +96,8 @@ std::size_t moveRepresentativesToFront(const SymmetryGroup& symmetries,
 {
   std::vector<std::uint8_t> chosen(samples.size(), 0);
   if (symmetries.sphere())
-    std::fill_n(chosen.begin(), std::min<std::size_t>(1, chosen.size()), std::uint8_t{1});
+    for (std::size_t k = 0; k < kOfSphere && k < chosen.size(); ++k)
+      chosen[k * chosen.size() / std::min(kOfSphere, chosen.size())] = 1;
   else if (symmetries.revolution())
     chosen = firstOfCircles(symmetries, center, step_m, samples);
   else

@@ -104,11 +104,13 @@ TEST(MoveRepresentativesToFront, keepsCirclesWhoseNormalsDiffer)
   EXPECT_EQ(moveRepresentativesToFront(revolution, kCenter, kStep_m, samples), 2U);
 }
 
-TEST(MoveRepresentativesToFront, takesOneOfASphere)
+TEST(MoveRepresentativesToFront, takesSomeOfASphereFromAllOverIt)
 {
   const SymmetryGroup sphere({}, {axisThroughCenter({0, 0, 1}), axisThroughCenter({1, 0, 0})});
   OrientedPoints samples = sphereSamples();
-  EXPECT_EQ(moveRepresentativesToFront(sphere, kCenter, kStep_m, samples), 1U);
+  EXPECT_EQ(moveRepresentativesToFront(sphere, kCenter, kStep_m, samples), 32U);
+  EXPECT_GT(samples.points[0].z(), 0.9F);
+  EXPECT_LT(samples.points[31].z(), -0.9F);
 }
 }  // namespace
 }  // namespace ppf_bin_picking

@@ -23,7 +23,7 @@ std::vector<std::uint8_t> inFundamentalDomain(const SymmetryGroup& symmetries,
 /// Moves samples to the front that stand for all: some symmetry lays any part of the surface onto
 /// a part that they cover. Without symmetries these are all samples. The order is kept otherwise.
 /// Under discrete symmetries they are those of one fundamental domain; under a revolution one
-/// sample of the circles that lie within half a step of each other.
+/// sample of the circles that lie within half a step of each other; of a sphere 32 all over it.
 /// @param center   Mesh frame [m]; the samples are relative to it, the symmetries are not.
 /// @param step_m   Distance of the samples.
 /// @return How many stand for all.
