@@ -18,6 +18,12 @@ PoseHypothesis poseOfMatch(const BoundaryPoint& scene, const BoundaryPoint& mode
   hypothesis.votes = static_cast<float>(votes);
   return hypothesis;
 }
+/// Counts the points that entries name.
+void count(const std::uint32_t* first, const std::uint32_t* last, std::uint32_t* votes)
+{
+  for (; first != last; ++first)
+    ++votes[*first];
+}
 }  // namespace
 
 std::vector<PoseHypothesis> matchBoundary(const std::vector<BoundaryPoint>& scene,
@@ -35,14 +41,15 @@ std::vector<PoseHypothesis> matchBoundary(const std::vector<BoundaryPoint>& scen
   const auto match = [&](std::size_t i)
   {
     if (deadline.passed()) return;
-    thread_local std::vector<std::uint32_t> votes, near;
+    thread_local std::vector<std::uint32_t> votes_of_thread, near_of_thread;
+    std::vector<std::uint32_t>&votes = votes_of_thread, &near = near_of_thread;
     votes.assign(table.points.size(), 0);
-    search.within(places[i], model.data().diameter_m, near);
+    search.withinInAnyOrder(places[i], model.data().diameter_m, near);
     const Eigen::Matrix3f frame = scene[i].frame();
     for (const std::uint32_t j : near)
       if (const auto key = quantizer.key(scene[i], frame, scene[j]))
-        for (std::uint32_t k = table.offsets[*key]; k < table.offsets[*key + 1]; ++k)
-          ++votes[table.entries[k]];
+        count(table.entries.data() + table.offsets[*key],
+              table.entries.data() + table.offsets[*key + 1], votes.data());
     peaks[i] = distinctPeaks(strongestCells(votes, config.peak_ratio), model, config,
                              [&](std::uint32_t cell)
                              { return poseOfMatch(scene[i], table.points[cell], votes[cell]); });

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/boundary_table.hpp"
 
+#include "ppf_bin_picking/core/orbits.hpp"
 #include "ppf_bin_picking/core/viewpoints.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ constexpr float kJumpRel = 0.03F;             // of the diameter
 constexpr float kSpacingRel = 0.04F;          // of the diameter
 constexpr float kCellRel = 0.08F;             // of the diameter
 constexpr float kShortestRel = 0.1F;          // of the diameter
+constexpr float kTieRel = 1e-4F;              // of the diameter
 constexpr int kHalfCells = 13;                // 1 / kCellRel, rounded
 constexpr std::uint32_t kCells = 2 * kHalfCells + 1;
 constexpr std::uint32_t kAxes = 6;  // both ways along each
@@ -26,8 +28,8 @@ constexpr std::uint32_t kAxes = 6;  // both ways along each
 /// The axis that a direction is nearest to.
 std::uint32_t nearestAxis(const Eigen::Vector3f& direction)
 {
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
+  const float x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
+  const int axis = z > x && z > y ? 2 : (y > x ? 1 : 0);  // of equal ones the first
   return static_cast<std::uint32_t>(2 * axis + (direction(axis) < 0 ? 1 : 0));
 }
 
@@ -137,27 +139,33 @@ std::optional<std::uint32_t> BoundaryQuantizer::key(const BoundaryPoint& first,
                                                     const BoundaryPoint& second) const
 {
   const Eigen::Vector3f apart = second.point - first.point;
-  const float distance_m = apart.norm();
-  if (distance_m < shortest_m_ || distance_m > longest_m_) return std::nullopt;
+  const float squared = apart.squaredNorm();
+  if (squared < shortest_m_ * shortest_m_ || squared > longest_m_ * longest_m_) return std::nullopt;
   const Eigen::Vector3f place = frame.transpose() * apart * inverse_cell_;
   std::uint32_t key = 0;
   for (int k = 0; k < 3; ++k)
-    key = key * kCells + static_cast<std::uint32_t>(kHalfCells + std::lround(place(k)));
+    key = key * kCells + static_cast<std::uint32_t>(place(k) + (kHalfCells + 0.5F));
   key = key * kAxes + nearestAxis(frame.transpose() * second.normal);
   return key * kAxes + nearestAxis(frame.transpose() * second.outward);
 }
 
 BoundaryTable buildBoundaryTable(const RenderableMesh& mesh, const Eigen::Vector3f& center,
-                                 float diameter_m)
+                                 float diameter_m, const SymmetryGroup& symmetries)
 {
   BoundaryTable table;
   const std::vector<std::vector<std::uint32_t>> views =
       pointsOfViews(mesh, center, diameter_m, table.points);
   const BoundaryQuantizer quantizer(diameter_m);
+  std::vector<Eigen::Vector3f> places;
+  for (const BoundaryPoint& boundary : table.points)
+    places.push_back(boundary.point);
+  const std::vector<std::uint8_t> wanted =
+      inFundamentalDomain(symmetries, center, kTieRel * diameter_m, places);
   std::vector<std::uint64_t> pairs;  // key << 32 | first point
   for (const std::vector<std::uint32_t>& seen : views)
     for (const std::uint32_t i : seen)
     {
+      if (!wanted[i]) continue;
       const Eigen::Matrix3f frame = table.points[i].frame();
       for (const std::uint32_t j : seen)
         if (const auto key = quantizer.key(table.points[i], frame, table.points[j]))

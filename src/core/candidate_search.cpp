@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/core/pose_clustering.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/ppf_matcher.hpp"
+#include "ppf_bin_picking/core/sparse_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,9 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
-constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
+constexpr std::size_t kBatch = 32;   // candidates between two looks at the deadline
+constexpr float kMergedRel = 0.02F;  // fitted candidates nearer than this, relative to the diameter
+constexpr double kMergedAngle = 0.08;    // ... and turned by less than this [rad] are one
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.
@@ -94,6 +97,29 @@ void append(std::vector<HypothesisCluster>& clusters, std::vector<PoseHypothesis
   }
   result.clusters.insert(result.clusters.end(), clusters.begin(), clusters.end());
   result.distribution.insert(result.distribution.end(), distribution.begin(), distribution.end());
+}
+
+/// Drops candidates that the cloud contradicts even where a quick fit moves them. They keep their
+/// own poses: without the outline the fit slides, which the dear one would have to undo. Drops
+/// nothing once the deadline has passed.
+void dropHopeless(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                  const DetectorConfig& config, const Deadline& deadline,
+                  std::vector<Candidate>& candidates)
+{
+  std::vector<std::uint8_t> hopeless(candidates.size(), 0);
+  const auto judge = [&](std::size_t i)
+  {
+    if (deadline.passed()) return;
+    const Candidate& start = candidates[i];
+    const SparseFit fit = fitSparsely(image, *models[start.model], start.T_camera_model, config);
+    hopeless[i] = fit.balance < config.min_sparse_balance;
+  };
+  parallelFor(config.threads, candidates.size(), judge);
+  if (deadline.passed()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (!hopeless[i]) candidates[kept++] = candidates[i];
+  candidates.resize(kept);
 }
 
 /// Indices of the candidates by their distance from the one with the most votes.
@@ -174,6 +200,8 @@ void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*
                       const std::function<void(const char*)>& lap,
                       std::vector<Candidate>& candidates)
 {
+  dropHopeless(image, models, config, deadline, candidates);
+  lap("pruning");
   const std::vector<std::size_t> order = fromTheBestOutwards(candidates, models);
   for (std::size_t first = 0; first < order.size() && !deadline.passed(); first += kBatch)
   {

@@ -22,6 +22,7 @@ add_library(
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
   ${core_dir}/normals.cpp
+  ${core_dir}/orbits.cpp
   ${core_dir}/organised_image.cpp
   ${core_dir}/outline.cpp
   ${core_dir}/parallel.cpp
@@ -41,6 +42,7 @@ add_library(
   ${core_dir}/reliability.cpp
   ${core_dir}/selection.cpp
   ${core_dir}/self_distance.cpp
+  ${core_dir}/sparse_fit.cpp
   ${core_dir}/surface_discrepancy.cpp
   ${core_dir}/surface_sampling.cpp
   ${core_dir}/symmetry.cpp

@@ -74,11 +74,17 @@ NeighborSearch::~NeighborSearch() = default;
 void NeighborSearch::within(const Eigen::Vector3f& query, float radius_m,
                             std::vector<std::uint32_t>& indices) const
 {
+  withinInAnyOrder(query, radius_m, indices);
+  std::sort(indices.begin(), indices.end());
+}
+
+void NeighborSearch::withinInAnyOrder(const Eigen::Vector3f& query, float radius_m,
+                                      std::vector<std::uint32_t>& indices) const
+{
   indices.clear();
   if (tree_->adaptor.points.empty()) return;
   RadiusCollector collector(radius_m * radius_m, indices);
   tree_->index.findNeighbors(collector, query.data(), nanoflann::SearchParams());
-  std::sort(indices.begin(), indices.end());
 }
 
 void NeighborSearch::nearest(const Eigen::Vector3f& query, std::size_t count,

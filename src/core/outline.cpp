@@ -12,6 +12,12 @@ constexpr float kLeastFacing = 0.02F;   // flatter surfaces count as this flat
 constexpr float kSlopeMargin = 1.5F;    // pixels of slope that are no step
 constexpr int kDirectionRadius_px = 2;  // window that gives the outline's direction
 
+/// The nearest integer; a library's call for it would be most of a profile's cost.
+int rounded(float value)
+{
+  return static_cast<int>(value + (value < 0 ? -0.5F : 0.5F));
+}
+
 bool covered(const RenderedPart& view, int column, int row)
 {
   return column >= 0 && row >= 0 && column < view.width && row < view.height &&
@@ -55,8 +61,8 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
   for (int t = -kOutlineReach_px; t <= kOutlineReach_px; ++t)
   {
     const auto step = static_cast<float>(t);
-    const int c = column + static_cast<int>(std::lround(step * outline.direction.x()));
-    const int r = row + static_cast<int>(std::lround(step * outline.direction.y()));
+    const int c = column + rounded(step * outline.direction.x());
+    const int r = row + rounded(step * outline.direction.y());
     float& relative = outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     relative = 0;
     if (t <= 0 && covered(view, c, r))

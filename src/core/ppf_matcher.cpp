@@ -22,11 +22,18 @@ public:
     cells_.assign(references * alpha_bins, 0);
   }
 
-  /// @param entry  Of the model's table.
-  void vote(std::uint32_t entry, std::uint16_t alpha_scene, std::uint32_t weight)
+  /// Votes for entries [first, last) of the model's table. Works on copies of the members: a vote
+  /// might change them for all that the compiler knows.
+  void vote(const std::uint32_t* first, const std::uint32_t* last, std::uint16_t alpha_scene,
+            std::uint32_t weight)
   {
-    const auto alpha = static_cast<std::uint16_t>(entry - alpha_scene);
-    cells_[(entry >> 16) * alpha_bins_ + (alpha * alpha_bins_ >> 16)] += weight;
+    std::uint32_t* const cells = cells_.data();
+    const std::uint32_t bins = alpha_bins_;
+    for (; first != last; ++first)
+    {
+      const auto alpha = static_cast<std::uint16_t>(*first - alpha_scene);
+      cells[(*first >> 16) * bins + (alpha * bins >> 16)] += weight;
+    }
   }
 
   const std::vector<std::uint32_t>& cells() const { return cells_; }
@@ -64,11 +71,12 @@ struct Matching
 
 void castVotes(const Matching& matching, std::uint32_t reference, Accumulator& accumulator)
 {
-  thread_local std::vector<std::uint32_t> near;
+  thread_local std::vector<std::uint32_t> near_of_thread;
+  std::vector<std::uint32_t>& near = near_of_thread;
   const Eigen::Vector3f& p1 = matching.scene.points[reference];
   const Eigen::Vector3f& n1 = matching.scene.normals[reference];
   const Eigen::Matrix3f rotation = rotationToX(n1);
-  matching.search.within(p1, matching.model.diameter_m, near);
+  matching.search.withinInAnyOrder(p1, matching.model.diameter_m, near);
   for (const std::uint32_t j : near)
   {
     if (j == reference) continue;
@@ -82,8 +90,8 @@ void castVotes(const Matching& matching, std::uint32_t reference, Accumulator& a
     if (begin == end) continue;
     const std::uint16_t alpha = pairAlpha(rotation, p1, p2);
     const std::uint32_t weight = voteWeight(n1, n2, matching.config.lambda, matching.config.v_min);
-    for (std::uint32_t i = begin; i < end; ++i)
-      accumulator.vote(matching.model.entries[i], alpha, weight);
+    const std::uint32_t* const entries = matching.model.entries.data();
+    accumulator.vote(entries + begin, entries + end, alpha, weight);
   }
 }
 
@@ -128,7 +136,8 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
     if (deadline.passed()) return;
     thread_local Accumulator accumulator;
     const auto reference = static_cast<std::uint32_t>(i * scene.size() / references);
-    accumulator.reset(data.points.size(), static_cast<std::uint32_t>(config.model.n_angle));
+    accumulator.reset(std::max<std::size_t>(1, model.references()),
+                      static_cast<std::uint32_t>(config.model.n_angle));
     castVotes(matching, reference, accumulator);
     peaks[i] = distinctPeaks(strongestCells(accumulator.cells(), config.peak_ratio), model, config,
                              [&](std::uint32_t cell)

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/ppf_model.hpp"
 
+#include "ppf_bin_picking/core/orbits.hpp"
 #include "ppf_bin_picking/core/ppf.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 
@@ -20,11 +21,13 @@ void requireThat(bool condition, const char* problem)
   if (!condition) throw std::invalid_argument(problem);
 }
 
-/// Calls visit(key, entry) for all ordered pairs that the quantizer covers.
+/// Calls visit(key, entry) for all ordered pairs that the quantizer covers whose first point is a
+/// reference point.
 template <class Visitor>
-void forEachPair(const PpfModelData& data, const FeatureQuantizer& quantizer, Visitor visit)
+void forEachPair(const PpfModelData& data, std::size_t references,
+                 const FeatureQuantizer& quantizer, Visitor visit)
 {
-  for (std::size_t r = 0; r < data.points.size(); ++r)
+  for (std::size_t r = 0; r < references; ++r)
   {
     const Eigen::Matrix3f rotation = rotationToX(data.normals[r]);
     for (std::size_t j = 0; j < data.points.size(); ++j)
@@ -40,16 +43,17 @@ void forEachPair(const PpfModelData& data, const FeatureQuantizer& quantizer, Vi
 }
 
 /// Fills the table: counts the entries of each key, then puts them in place.
-void buildTable(PpfModelData& data)
+void buildTable(std::size_t references, PpfModelData& data)
 {
   const FeatureQuantizer quantizer(data.parameters, data.diameter_m);
   data.offsets.assign(quantizer.keyCount() + 1, 0);
-  forEachPair(data, quantizer, [&](std::uint32_t key, std::uint32_t) { ++data.offsets[key + 1]; });
+  forEachPair(data, references, quantizer,
+              [&](std::uint32_t key, std::uint32_t) { ++data.offsets[key + 1]; });
   for (std::size_t k = 1; k < data.offsets.size(); ++k)
     data.offsets[k] += data.offsets[k - 1];
   data.entries.resize(data.offsets.back());
   std::vector<std::uint32_t> next(data.offsets.begin(), data.offsets.end() - 1);
-  forEachPair(data, quantizer,
+  forEachPair(data, references, quantizer,
               [&](std::uint32_t key, std::uint32_t entry) { data.entries[next[key]++] = entry; });
 }
 
@@ -143,10 +147,13 @@ PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetri
   requireThat(!samples.points.empty(),
               "the mesh has no surface: give one with at least a triangle of some area");
   requireThat(samples.size() <= kMaxPoints, "the model has more than 65535 points: raise step_rel");
+  const std::size_t references =
+      moveRepresentativesToFront(symmetries, data.center, step_m, samples);
   data.points = std::move(samples.points);
   data.normals = std::move(samples.normals);
-  buildTable(data);
-  data.boundary = buildBoundaryTable(RenderableMesh(data.mesh), data.center, data.diameter_m);
+  buildTable(references, data);
+  data.boundary =
+      buildBoundaryTable(RenderableMesh(data.mesh), data.center, data.diameter_m, symmetries);
   return PpfModel(std::move(data));
 }
 
@@ -155,5 +162,7 @@ PpfModel::PpfModel(PpfModelData data)
       symmetries_(data_.symmetries_discrete, data_.symmetries_continuous),
       renderable_(data_.mesh)
 {
+  for (const std::uint32_t entry : data_.entries)
+    references_ = std::max<std::size_t>(references_, (entry >> 16) + 1);
 }
 }  // namespace ppf_bin_picking

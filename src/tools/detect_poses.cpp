@@ -9,11 +9,14 @@
 #include "pose_explanation.hpp"
 #include "tool_support.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -25,6 +28,7 @@ struct Options
   SceneOptions scene;
   std::string model;
   int threads = -1;  ///< -1: as the configuration says.
+  int repeat = 1;    ///< Detections of the same cloud.
   std::string output;
   std::string explain;       ///< A pose to explain ...
   bool has_explain = false;  ///< ... if there is one.
@@ -57,6 +61,26 @@ void reportTimes(const DetectionResult& result)
   report(text.str());
 }
 
+/// The time that a share of the detections stay within.
+double quantile(const std::vector<double>& ascending, double share)
+{
+  const double rank = std::ceil(share * static_cast<double>(ascending.size()));
+  return ascending[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+}
+
+/// What several detections of the same cloud took.
+void reportDistribution(std::vector<double> seconds)
+{
+  const double first = seconds.front();
+  std::sort(seconds.begin(), seconds.end());
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << seconds.size() << " detections: first "
+       << first * 1000 << " ms, least " << seconds.front() * 1000 << ", median "
+       << quantile(seconds, 0.5) * 1000 << ", 95 % within " << quantile(seconds, 0.95) * 1000
+       << ", most " << seconds.back() * 1000;
+  report(text.str());
+}
+
 void detectPoses(const Options& options)
 {
   std::optional<Eigen::Isometry3d> explained;
@@ -70,16 +94,22 @@ void detectPoses(const Options& options)
   file.frame_id = scene.frame_id;
   const PpfModel model = modelFor(part, options, file.train_seconds);
   PoseExplanation explanation;
-  if (explained)
+  std::vector<double> seconds;
+  for (int i = 0; i < options.repeat; ++i)
   {
-    explanation = detector.explain(scene.cloud, model, scene.roi, *explained);
-    file.result = explanation.result;
+    if (explained)
+    {
+      explanation = detector.explain(scene.cloud, model, scene.roi, *explained);
+      file.result = explanation.result;
+    }
+    else
+      file.result = detector.detect(scene.cloud, model, scene.roi);
+    seconds.push_back(file.result.seconds);
   }
-  else
-    file.result = detector.detect(scene.cloud, model, scene.roi);
   if (file.result.status == DetectionStatus::kBadCloud) throw InputError(file.result.message);
   writeFile(options.output, toJson(file));
   reportTimes(file.result);
+  if (options.repeat > 1) reportDistribution(seconds);
   report(file.result.message);
   if (explained) std::cout << explanationText(explanation, part.config);
 }
@@ -100,6 +130,10 @@ int main(int argc, char** argv)
   CLI::Option* explain =
       app.add_option("--explain", options.explain,
                      "Pose \"x y z qx qy qz qw\", T_cloud_model in metres, to explain");
+  app.add_option("--repeat", options.repeat,
+                 "Detect so many times and print the distribution of the times; the result is the "
+                 "last one's")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--output", options.output, "Result to write, .json")->required();
   return runTool(app, argc, argv,
                  [&]

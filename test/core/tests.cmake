@@ -10,6 +10,7 @@ set(core_tests
     test_model_renderer
     test_neighbor_search
     test_normals
+    test_orbits
     test_outline
     test_paper_experiments
     test_parallel
@@ -26,6 +27,7 @@ set(core_tests
     test_reliability
     test_selection
     test_self_distance
+    test_sparse_fit
     test_surface_discrepancy
     test_surface_sampling
     test_symmetry

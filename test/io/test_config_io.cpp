@@ -31,6 +31,18 @@ TEST(DetectorConfigFile, ofThePackageHoldsEveryFieldWithItsDefault)
   EXPECT_EQ(keys, detectorConfigKeys());
 }
 
+TEST(DetectorConfigFile, ofTheFastSettingsChangesNothingThatModelsDependOn)
+{
+  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const DetectorConfig fast = loadDetectorConfig((root / "config" / "fast.yaml").string());
+  const DetectorConfig usual;
+  EXPECT_TRUE(fast.problems().empty());
+  EXPECT_TRUE(fast.model == usual.model);
+  EXPECT_LT(fast.reference_share, usual.reference_share);
+  EXPECT_LT(fast.icp_iterations, usual.icp_iterations);
+  EXPECT_GT(fast.min_sparse_balance, usual.min_sparse_balance);
+}
+
 TEST(DetectorConfigFile, keepsDefaultsOfWhatItLeavesOut)
 {
   const DetectorConfig config = configOf("{lambda: 1, n_angle: 24, clustering: greedy}");

@@ -125,6 +125,16 @@ TEST_F(CommandLine, refusesToExplainWhatIsNoPose)
   expectRefused("detect_poses", detect({"--explain", "0 0 1 0 0 0 0"}), "has no length");
 }
 
+TEST_F(CommandLine, repeatsTheDetectionAndTellsHowLongItTook)
+{
+  const Outcome outcome = run("detect_poses", detect({"--repeat", "3"}));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expectHolds(outcome.err, "3 detections: first ");
+  EXPECT_GT(loadResult(result_).result.seconds, 0);
+  EXPECT_EQ(run("detect_poses", detect()).err.find("detections: first"), std::string::npos);
+  EXPECT_EQ(run("detect_poses", detect({"--repeat", "0"})).status, 2);
+}
+
 TEST_F(CommandLine, explainsItself)
 {
   for (const char* tool : {"train_model", "detect_poses", "check_poses"})

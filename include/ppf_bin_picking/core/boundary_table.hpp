@@ -3,6 +3,7 @@
 
 #include "ppf_bin_picking/core/boundary.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
+#include "ppf_bin_picking/core/symmetry.hpp"
 
 #include <Eigen/Geometry>
 
@@ -43,10 +44,11 @@ private:
   float longest_m_;
 };
 
-/// The table of the pairs that some viewpoint around the part sees together.
+/// The table of the pairs that some viewpoint around the part sees together. Of first points that
+/// the discrete symmetries lay onto each other one is enough.
 /// @param center  Of the part, mesh frame [m].
 BoundaryTable buildBoundaryTable(const RenderableMesh& mesh, const Eigen::Vector3f& center,
-                                 float diameter_m);
+                                 float diameter_m, const SymmetryGroup& symmetries);
 
 /// Least fall beyond a boundary point [m], for the model and for the scene.
 float boundaryJump(float diameter_m);

@@ -62,12 +62,13 @@ struct DetectorConfig
   double min_reliability = 0.8;   ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
-  int max_candidates = 300;        ///< Poses that are refined and verified at most. >= 1.
-  int icp_iterations = 12;         ///< Steps of point-to-plane ICP. In [0, 100].
-  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
-  double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
-  double min_score = 0.4;          ///< Poses scoring less are not reliable. [0, 1].
-  double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
+  int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
+  double min_sparse_balance = -0.2;  ///< A quick fit worse than this ends a pose. [-2, 1].
+  int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
+  double depth_gate_rel = 0.02;      ///< A surface confirms a pose within this distance. > 0.
+  double normal_gate_rad = 0.6;      ///< ... and within this turn of the normal. (0, pi/2].
+  double min_score = 0.4;            ///< Poses scoring less are not reliable. [0, 1].
+  double min_visible_share = 0.2;    ///< Poses showing less of their surface neither. [0, 1].
 
   int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
 
@@ -108,6 +109,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("max_slide_share", config.max_slide_share);
   visit("min_reliability", config.min_reliability);
   visit("max_candidates", config.max_candidates);
+  visit("min_sparse_balance", config.min_sparse_balance);
   visit("icp_iterations", config.icp_iterations);
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);

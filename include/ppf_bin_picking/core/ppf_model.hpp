@@ -54,9 +54,14 @@ public:
   const RenderableMesh& renderable() const { return renderable_; }
   double diameter() const { return data_.diameter_m; }  ///< [m]
 
+  /// The table's reference points are the first so many points: of points that the symmetries lay
+  /// onto each other one is enough.
+  std::size_t references() const { return references_; }
+
 private:
   PpfModelData data_;
   SymmetryGroup symmetries_;
   RenderableMesh renderable_;
+  std::size_t references_ = 0;
 };
 }  // namespace ppf_bin_picking
