@@ -2,6 +2,7 @@
 # scripts/test leaves it out, by name, where that folder is absent.
 #
 #   add_unit_test(FOLDER NAME LIBRARY... [DATA])   test/FOLDER/NAME.cpp
+#   add_script_test(NAME)                          test/scripts/NAME.py
 #   add_integration_test(NAME [DATA])              test/integration/NAME.test
 
 function(add_unit_test folder name)
@@ -12,6 +13,10 @@ function(add_unit_test folder name)
   if(arg_DATA)
     set_tests_properties(_ctest_${PROJECT_NAME}_gtest_${name} PROPERTIES LABELS data)
   endif()
+endfunction()
+
+function(add_script_test name)
+  catkin_add_nosetests(test/scripts/${name}.py)
 endfunction()
 
 function(add_integration_test name)

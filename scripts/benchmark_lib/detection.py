@@ -86,21 +86,28 @@ class Bench:
         )
         return path
 
-    def result_path(self, variant, scene):
-        return self.folder / "results" / variant / scene.part / f"{scene.name}.json"
+    def result_path(self, variant, scene, part=None):
+        """part: what is looked for, if not the scene's own."""
+        folder = self.folder / "results" / variant
+        if part in (None, scene.part):
+            return folder / scene.part / f"{scene.name}.json"
+        return folder / part / f"{scene.part}-{scene.name}.json"
 
-    def detect(self, variant, scene):
-        """Poses of one scene. Returns whether they were found now."""
-        path = self.result_path(variant, scene)
+    def detect(self, variant, scene, part=None):
+        """Poses of one scene's part, or of another in its place. Returns whether they were found now."""
+        part = part or scene.part
+        path = self.result_path(variant, scene, part)
         config = self.configs[variant]
-        model = self.model(variant, scene.part)
-        key = digest(config, self.scene_key(scene), program_digest("detect_poses"))
+        model = self.model(variant, part)
+        key = digest(
+            config, self.scene_key(scene), self.part_digest(part), program_digest("detect_poses")
+        )
         return once(
             path,
             key,
             lambda: run(
                 "detect_poses",
-                *("--part", self.part_folder(scene.part) / "part.yaml", "--model", model),
+                *("--part", self.part_folder(part) / "part.yaml", "--model", model),
                 *self.scene_arguments(scene),
                 *("--config", config, "--output", path),
             ),

@@ -1,0 +1,110 @@
+"""Command line of scripts/fit_reliability."""
+
+import argparse
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from benchmark_lib.cases import all_parts
+from benchmark_lib.detection import write_configs
+from benchmark_lib.programs import BenchmarkError
+
+from .regression import fit, predict_left_out
+from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
+from .terms import SIGNS, code_of
+from .training import VARIANT, Plan, Training, collect
+
+QUICK_PARTS = ("bolt", "box")
+QUICK_PLAN = {"seeds": (101,), "fills": (24,), "presets": ("industrial",)}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="scripts/fit_reliability",
+        description="Fits the weights of src/core/reliability.cpp on simulated scenes and writes a report. What was done before is not done again.",
+    )
+    parser.add_argument("--parts", nargs="+", choices=all_parts(), metavar="PART")
+    parser.add_argument("--quick", action="store_true", help="two parts, one scene each")
+    parser.add_argument("--folder", type=Path, default=Path("build/reliability"))
+    parser.add_argument(
+        "--report",
+        type=Path,
+        help="default: docs/reliability.md if everything is used, else reliability.md in the folder",
+    )
+    return parser.parse_args()
+
+
+def choose(options):
+    """What is simulated; fills in where the report goes."""
+    complete = not options.parts and not options.quick
+    default_report = Path("docs") if complete else options.folder
+    options.report = options.report or default_report / "reliability.md"
+    parts = options.parts or (QUICK_PARTS if options.quick else all_parts())
+    parts = tuple(dict.fromkeys(parts))
+    if len(parts) < 2:
+        raise BenchmarkError("One part cannot be judged by the others: name two or more.")
+    return Plan(parts, **(QUICK_PLAN if options.quick else {}))
+
+
+def fit_all(poses):
+    """The model of all parts with the means of its terms over right poses, and what models without each part predict."""
+    for part in sorted(set(poses.parts)):
+        if len(set(poses.labels[poses.parts != part])) < 2:
+            raise BenchmarkError(
+                f"Without {part} all poses are right, or all wrong: take more parts."
+            )
+    weights = poses.weights()
+    model = fit(poses.terms, poses.labels, weights, SIGNS)
+    right = poses.labels == 1
+    means = np.average(poses.terms[right], axis=0, weights=weights[right])
+    predicted = predict_left_out(poses.terms, poses.labels, weights, poses.parts, SIGNS)
+    return (model, means), predicted
+
+
+def run_facts(options, plan):
+    """What the report says about how it was made."""
+    commit = subprocess.run(
+        ["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False
+    ).stdout.strip()
+    return {
+        "command": " ".join(["scripts/fit_reliability", *sys.argv[1:]]),
+        "folder": options.folder,
+        "plan": plan,
+        "commit": commit or "unknown",
+    }
+
+
+def report(options, plan, poses):
+    """Fits, prints the figures, writes the page and its picture."""
+    fitted, predicted = fit_all(poses)
+    drawn = diagrams(poses, predicted)
+    print(code_of(*fitted))
+    print(threshold_table(poses, predicted))
+    print(diagram_table(drawn))
+    picture = "images/reliability.png"
+    draw_diagram(drawn, options.report.parent / picture)
+    facts = run_facts(options, plan)
+    options.report.write_text(write_page(facts, poses, fitted, predicted, drawn, picture))
+    print(f"Wrote {options.report}")
+
+
+def main():
+    options = arguments()
+    start = time.monotonic()
+    try:
+        plan = choose(options)
+        folder = options.folder.resolve()
+        bench = Training(folder, write_configs(folder / "configs", [VARIANT], []))
+        report(options, plan, collect(plan, bench))
+    except BenchmarkError as error:
+        print(f"scripts/fit_reliability: {error}", file=sys.stderr)
+        return 2
+    print(f"Duration: {time.monotonic() - start:.0f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+"""What the probability is made of: the terms of src/core/reliability.cpp, in the same order."""
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy as np
+
+from benchmark_lib.programs import BenchmarkError
+
+
+@dataclass(frozen=True)
+class Term:
+    """One summand of the logit."""
+
+    name: str  # of the pose's value in the results of detect_poses
+    value: Callable  # of the term, from the pose's value
+    text: str  # the same in words
+    sign: int  # of the weight: what speaks for a pose must not be turned against it by chance
+    code: str  # the same in C++
+    reason: str  # of the pose's unreliability where this term is to blame
+
+
+def clamp(value, low, high):
+    return min(max(value, low), high)
+
+
+def score_logit(score):
+    score = clamp(score, 0.2, 0.98)
+    return math.log(score / (1 - score))
+
+
+TERMS = (
+    Term(
+        "score",
+        score_logit,
+        "logit of the score, within 0.2 and 0.98",
+        1,
+        "std::log(score / (1 - score))",
+        "kLowScore",
+    ),
+    Term(
+        "margin",
+        lambda margin: clamp(margin, -0.2, 0.5),
+        "lead over the best other pose there, within -0.2 and 0.5",
+        1,
+        "std::clamp(pose.margin, -0.2, 0.5)",
+        "kRunnerUp",
+    ),
+    Term(
+        "hold",
+        lambda hold: math.log10(max(hold, 0.001)),
+        "log10 of the hold, at least 0.001",
+        1,
+        "std::log10(std::max(pose.hold, 0.001))",
+        "kSlippage",
+    ),
+    Term(
+        "spread",
+        lambda spread: min(spread, 2),
+        "spread of its cluster in diameters, at most 2",
+        -1,
+        "std::min(pose.spread, 2.0)",
+        "kSpread",
+    ),
+    Term(
+        "looked_through",
+        float,
+        "share of the expected surface that the cloud lies behind",
+        -1,
+        "pose.looked_through",
+        "kLowScore",
+    ),
+    Term(
+        "outline_broken",
+        float,
+        "share of the outline in sight where the cloud goes on",
+        -1,
+        "pose.outline_broken",
+        "kLowScore",
+    ),
+    Term(
+        "claimed",
+        float,
+        "share of the expected surface that better poses explain",
+        -1,
+        "pose.claimed",
+        "kOverlap",
+    ),
+    Term(
+        "confirmed_px",
+        lambda pixels: math.log10(max(pixels, 30)),
+        "log10 of the pixels that confirm it, at least 30",
+        1,
+        "std::log10(std::max(pose.confirmed_px, 30))",
+        "kLowScore",
+    ),
+    Term(
+        "visible_fraction",
+        lambda share: min(share, 1),
+        "share of its surface that is in sight",
+        1,
+        "std::min(pose.visible_fraction, 1.0)",
+        "kLowScore",
+    ),
+)
+SIGNS = tuple(term.sign for term in TERMS)
+
+
+def terms_of(poses, place):
+    """A row of terms for each pose of a result. place: the result, for the error."""
+    missing = [term.name for pose in poses for term in TERMS if pose.get(term.name) is None]
+    if missing:
+        raise BenchmarkError(f"{place} has a pose without {missing[0]}: build the package.")
+    rows = [[term.value(pose[term.name]) for term in TERMS] for pose in poses]
+    return np.array(rows, float).reshape(len(poses), len(TERMS))
+
+
+def code_of(model, means):
+    """The lines of src/core/reliability.cpp that hold the fit. means: of the terms over right poses."""
+    rows = [
+        f"      {{{term.code}, {weight:.3f}, {mean:.3f}, UnreliableReason::{term.reason}}},\n"
+        for term, weight, mean in zip(TERMS, model.weights, means)
+    ]
+    return f"constexpr double kIntercept = {model.intercept:.3f};\n\n" + "".join(rows)

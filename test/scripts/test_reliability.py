@@ -1,0 +1,275 @@
+"""The fit behind scripts/fit_reliability: regression, shiny scenes, labels and terms."""
+
+import math
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+PACKAGE = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(PACKAGE / "scripts"))
+
+from benchmark_lib.cases import Scene  # after the path that it is found on
+from benchmark_lib.programs import BenchmarkError
+from reliability_lib import regression, shiny, terms, training
+
+
+def known_problem(rows=40000, seed=3):
+    """Terms of very different units, and labels drawn with intercept -1 and weights 2 and -0.05."""
+    rng = np.random.default_rng(seed)
+    drawn = np.c_[rng.normal(0.5, 1, rows), rng.normal(100, 20, rows)]
+    probability = 1 / (1 + np.exp(-(-1 + 2 * drawn[:, 0] - 0.05 * (drawn[:, 1] - 100))))
+    return drawn, (rng.random(rows) < probability).astype(float)
+
+
+class FitTest(unittest.TestCase):
+    def test_finds_the_weights_that_labels_were_drawn_with(self):
+        drawn, labels = known_problem()
+        model = regression.fit(drawn, labels, np.ones(len(labels)), (1, -1))
+        np.testing.assert_allclose(model.weights, (2, -0.05), rtol=0.05)
+        self.assertAlmostEqual(model.intercept, -1 + 0.05 * 100, delta=0.25)
+
+    def test_its_gradient_vanishes_where_no_sign_binds(self):
+        drawn, labels = known_problem(rows=500)
+        model = regression.fit(drawn, labels, np.ones(500), (1, -1))
+        residual = labels - model.predict(drawn)
+        deviation = drawn.std(axis=0)
+        gradient = ((drawn - drawn.mean(axis=0)) / deviation).T @ residual
+        self.assertAlmostEqual(residual.sum(), 0, delta=1e-2)
+        penalty = regression.PENALTY * model.weights * deviation
+        np.testing.assert_allclose(gradient, penalty, atol=1e-2)
+
+    def test_a_weight_of_the_wrong_sign_is_none_and_the_others_are_those_without_it(self):
+        drawn, labels = known_problem(rows=2000)
+        weights = np.ones(len(labels))
+        model = regression.fit(drawn, labels, weights, (1, 1))
+        alone = regression.fit(drawn[:, :1], labels, weights, (1,))
+        self.assertEqual(model.weights[1], 0)
+        np.testing.assert_allclose(model.weights[0], alone.weights[0], rtol=1e-3)
+
+    def test_a_sample_of_weight_two_counts_as_two(self):
+        drawn, labels = known_problem(rows=300)
+        doubled = np.where(np.arange(300) < 100, 2.0, 1.0)
+        weighted = regression.fit(drawn, labels, doubled, (1, -1))
+        twice = np.r_[np.arange(300), np.arange(100)]
+        repeated = regression.fit(drawn[twice], labels[twice], np.ones(400), (1, -1))
+        np.testing.assert_allclose(weighted.weights, repeated.weights, rtol=1e-3)
+
+    def test_units_do_not_matter(self):
+        drawn, labels = known_problem(rows=300)
+        weights = np.ones(300)
+        one = regression.fit(drawn, labels, weights, (1, -1)).predict(drawn)
+        scaled = drawn * (1000, 0.001)
+        other = regression.fit(scaled, labels, weights, (1, -1)).predict(scaled)
+        np.testing.assert_allclose(one, other, atol=1e-5)
+
+    def test_a_constant_term_gets_no_weight(self):
+        drawn, labels = known_problem(rows=300)
+        drawn[:, 1] = 7
+        self.assertEqual(regression.fit(drawn, labels, np.ones(300), (1, 1)).weights[1], 0)
+
+
+class LeftOutTest(unittest.TestCase):
+    def test_what_is_predicted_of_a_group_ignores_its_own_labels(self):
+        drawn, labels = known_problem(rows=600)
+        groups = np.repeat(["a", "b", "c"], 200)
+        weights = np.ones(600)
+        before = regression.predict_left_out(drawn, labels, weights, groups, (1, -1))
+        labels[groups == "b"] = 1 - labels[groups == "b"]
+        after = regression.predict_left_out(drawn, labels, weights, groups, (1, -1))
+        np.testing.assert_array_equal(before[groups == "b"], after[groups == "b"])
+        self.assertGreater(np.abs(before - after)[groups == "a"].max(), 0.01)
+
+
+class FiguresTest(unittest.TestCase):
+    def test_kept_share_and_precision_count_the_threshold_itself(self):
+        predicted, labels = np.array([0.9, 0.8, 0.8, 0.1]), np.array([1, 1, 0, 1])
+        kept, precision = regression.kept_and_precision(predicted, labels, 0.8)
+        self.assertAlmostEqual(kept, 2 / 3)
+        self.assertAlmostEqual(precision, 2 / 3)
+
+    def test_bins_hold_all_poses_with_their_means(self):
+        predicted, labels = np.array([0.0, 0.11, 0.19, 1.0]), np.array([0, 1, 0, 1])
+        bins = regression.reliability_bins(predicted, labels, np.array([1, 3, 1, 1]))
+        self.assertEqual([entry.count for entry in bins], [1, 2] + 7 * [0] + [1])
+        self.assertAlmostEqual(bins[1].predicted, (3 * 0.11 + 0.19) / 4)
+        self.assertAlmostEqual(bins[1].observed, 0.75)
+        self.assertTrue(math.isnan(bins[5].observed))
+
+
+class ShinyTest(unittest.TestCase):
+    """A floor at 1000 with, on its left, a block at 800 and a ramp of 60 degrees; some pixels are empty."""
+
+    FOCAL_PX = 500
+
+    def setUp(self):
+        self.depth = np.full((120, 160), 1000.0)
+        self.depth[20:100, 20:60] = 800
+        columns = np.arange(40)
+        self.depth[20:100, 90:130] = 1000 - np.tan(np.pi / 3) * columns * 900 / self.FOCAL_PX
+        self.depth[110:, :] = 0
+
+    def shiny(self, seed):
+        return shiny.make_shiny(self.depth, self.FOCAL_PX, np.random.default_rng(seed))
+
+    def test_surfaces_that_face_the_camera_stay_as_they_are(self):
+        for seed in range(10):
+            result = self.shiny(seed)
+            np.testing.assert_array_equal(result[30:90, 30:50], self.depth[30:90, 30:50])
+            np.testing.assert_array_equal(result[:10, :], self.depth[:10, :])
+
+    def test_every_pixel_is_as_before_empty_or_as_deep_as_a_kept_one(self):
+        for seed in range(10):
+            result = self.shiny(seed)
+            changed = (result != self.depth) & (result > 0)
+            kept = np.where((result == self.depth) & (result > 0), result, 0)
+            deepest = shiny.ndimage.maximum_filter(kept, size=2 * shiny.REACH_PX[1] + 1)
+            self.assertTrue(np.isin(result[changed], self.depth).all())
+            self.assertTrue((result[changed] <= deepest[changed]).all())
+
+    def test_steep_surfaces_are_lost(self):
+        for seed in range(10):
+            ramp = (slice(30, 90), slice(100, 120))
+            same = self.shiny(seed)[ramp] == self.depth[ramp]
+            self.assertEqual(same.sum(), 0, f"seed {seed}")
+
+    def test_in_some_places_what_lies_behind_shows_through_and_others_are_empty(self):
+        shown = []
+        for seed in range(10):
+            result = self.shiny(seed)
+            kept = (result == self.depth) & (result > 0)
+            fillable = shiny.ndimage.maximum_filter(kept, size=shiny.REACH_PX[0])
+            lost = (self.depth > 0) & ~kept & fillable
+            self.assertTrue((result[lost] == 0).any(), f"seed {seed}")
+            shown.append((result[30:90, 50:60] == 1000).any())
+        self.assertGreater(sum(shown), 5)
+
+    def test_pixels_beside_empty_ones_are_lost(self):
+        self.depth = np.repeat(1000 + 0.2 * np.arange(120.0)[:, None], 160, axis=1)
+        self.depth[60, :] = 0
+        for seed in range(10):
+            same = self.shiny(seed) == self.depth
+            self.assertFalse(same[[59, 61], :].any(), f"seed {seed}")
+            self.assertTrue(same[[57, 63], :].all(), f"seed {seed}")
+
+    def test_some_of_the_pixels_that_were_empty_stay_so(self):
+        filled = np.array([self.shiny(seed)[109:111, :] > 0 for seed in range(20)])
+        lost_row, empty_row = filled.mean(axis=(0, 2))
+        self.assertAlmostEqual(empty_row / lost_row, 1 - shiny.EMPTY_SHARE, delta=0.05)
+
+    def test_empty_regions_out_of_reach_stay_empty(self):
+        self.depth[60:, :] = 0
+        self.assertEqual(self.shiny(1)[80:, :].max(), 0)
+
+    def test_a_seed_repeats(self):
+        np.testing.assert_array_equal(self.shiny(4), self.shiny(4))
+        self.assertTrue((self.shiny(4) != self.shiny(5)).any())
+
+    def test_a_scene_is_copied_with_its_truth(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, copy = Path(folder) / "part/plain", Path(folder) / "part/shiny"
+            source.mkdir(parents=True)
+            image = shiny.Image.fromarray(self.depth.astype(np.uint16))
+            image.save(source / "depth.png")
+            (source / "camera.yaml").write_text("fx: 500\n")
+            (source / "gt.json").write_text("{}")
+            (source / "roi.yaml").write_text("x: 1\n")
+            shiny.write_shiny_scene(source, copy)
+            self.assertEqual((copy / "gt.json").read_text(), "{}")
+            with shiny.Image.open(copy / "depth.png") as image:
+                written = np.array(image)
+        np.testing.assert_array_equal(written[30:90, 30:50], 800)
+
+
+class TrainingTest(unittest.TestCase):
+    def test_each_part_is_looked_for_among_four_others(self):
+        parts = tuple("abcdefghijkl")
+        self.assertEqual(training.neighbours(parts, "k"), ["l", "b", "d", "g"])
+        for count in range(2, 12):
+            others = training.neighbours(parts[:count], "b")
+            self.assertTrue(others)
+            self.assertNotIn("b", others)
+            self.assertEqual(len(set(others)), len(others))
+
+    def test_the_plan_makes_the_scenes_that_foreign_parts_are_looked_for_in(self):
+        quick = training.Plan(("a", "b"), seeds=(1,), fills=(2,), presets=("industrial",))
+        for plan in (training.Plan(tuple("abcdefghijkl")), quick):
+            made = set(plan.plain()) | set(plan.shiny())
+            foreign = [pair for pairs in plan.foreign().values() for pair in pairs]
+            self.assertTrue(foreign)
+            for part, scene in foreign:
+                self.assertIn(scene, made)
+                self.assertNotEqual(part, scene.part)
+
+    def test_copies_are_made_of_the_cleaner_sensors(self):
+        plan = training.Plan(("a",))
+        self.assertEqual(len(plan.plain()), 12)
+        self.assertEqual(len(plan.shiny()), 8)
+        self.assertEqual(
+            training.ShinyScene(Scene("a", 24, "clean", 101)).name, "shiny-clean-24-101"
+        )
+
+    def test_a_pose_is_right_below_the_threshold_even_on_an_object_already_found(self):
+        judged = [
+            {"index": 2, "mssd_rel": 0.05, "verdict": "right"},
+            {"index": 0, "mssd_rel": 0.0999, "verdict": "duplicate"},
+            {"index": 1, "mssd_rel": 0.1, "verdict": "wrong"},
+            {"index": 3, "mssd_rel": None, "verdict": "wrong"},
+        ]
+        np.testing.assert_array_equal(training.labels_of(judged, 4, 0.1), [1, 0, 1, 0])
+        with self.assertRaises(ValueError):
+            training.labels_of(judged, 5, 0.1)
+
+    def test_foreign_poses_weigh_less(self):
+        sets = np.array(["own", "shiny", "foreign", "foreign, shiny"])
+        poses = training.Poses(np.zeros((4, 9)), np.zeros(4), sets, sets)
+        np.testing.assert_array_equal(poses.weights(), [1, 1, 0.2, 0.2])
+
+
+class TermsTest(unittest.TestCase):
+    POSE = {
+        "score": 0.5,
+        "margin": 0.3,
+        "hold": 0.01,
+        "spread": 0.4,
+        "looked_through": 0.02,
+        "outline_broken": 0.1,
+        "claimed": 0.03,
+        "confirmed_px": 1000,
+        "visible_fraction": 0.6,
+    }
+
+    def test_values_are_those_of_the_result_in_their_scales(self):
+        row = terms.terms_of([self.POSE], "here")[0]
+        np.testing.assert_allclose(row, [0, 0.3, -2, 0.4, 0.02, 0.1, 0.03, 3, 0.6], atol=1e-12)
+
+    def test_extremes_are_clamped(self):
+        low = {**self.POSE, "score": 0, "margin": -1, "hold": 0, "confirmed_px": 0}
+        high = {**self.POSE, "score": 1, "margin": 1, "spread": 9, "visible_fraction": 1.5}
+        low_row, high_row = terms.terms_of([low, high], "here")
+        np.testing.assert_allclose(low_row[[0, 1, 2, 7]], [-np.log(4), -0.2, -3, np.log10(30)])
+        np.testing.assert_allclose(high_row[[0, 1, 3, 8]], [np.log(49), 0.5, 2, 1])
+
+    def test_a_pose_without_a_value_is_refused_with_its_name_and_place(self):
+        pose = {**self.POSE, "claimed": None}
+        with self.assertRaisesRegex(BenchmarkError, "here.*claimed"):
+            terms.terms_of([self.POSE, pose], "here")
+
+    def test_no_pose_is_no_row(self):
+        self.assertEqual(terms.terms_of([], "here").shape, (0, len(terms.TERMS)))
+
+    def test_the_code_has_a_line_a_term_with_weight_and_mean(self):
+        model = regression.Model(-1.5, np.arange(9) / 8)
+        lines = terms.code_of(model, np.arange(9) * 10.0).splitlines()
+        self.assertEqual(lines[0], "constexpr double kIntercept = -1.500;")
+        self.assertEqual(
+            lines[3],
+            "      {std::clamp(pose.margin, -0.2, 0.5), 0.125, 10.000, UnreliableReason::kRunnerUp},",
+        )
+        self.assertEqual(len(lines), 2 + len(terms.TERMS))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,2 @@
+# Tests of what the scripts in scripts/ are made of.
+set(scripts_tests test_reliability)
