@@ -26,6 +26,7 @@ std::vector<std::string> PhysicsSettings::problems() const
   };
   require(gravity_m_s2 > 0, "gravity_m_s2 must be above 0");
   require(friction >= 0, "friction must not be negative");
+  require(static_friction_rel >= 1, "static_friction_rel must be at least 1");
   require(restitution >= 0 && restitution < 1, "restitution must be in [0, 1)");
   require(rolling_friction_m >= 0, "rolling_friction_m must not be negative");
   require(step_s > 0, "step_s must be above 0");

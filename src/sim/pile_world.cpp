@@ -12,8 +12,9 @@ constexpr double kMostSettling_s = 60;  // simulated
 constexpr double kCreep_m = 0.0001;     // no point of a resting part gets further in rest_s
 constexpr std::size_t kMostDrops = 3;   // of each part, on average, until it settles
 constexpr double kDamping = 0.1;        // share of the speed lost in a second
+constexpr double kStick_m_s = 0.01;     // slower parts stick
 // Slow parts move as if through oil, which swallows the solver's jitter. What is not supported
-// still moves: the hundredth of its weight is enough to make it faster than a resting part may be.
+// still moves: a two-thousandth of its weight takes it further in a second than a resting part may.
 constexpr double kSlow_m_s = 0.05;
 constexpr double kSlowDrag_1_s = 5;
 constexpr int kIterations = 60;        // of the solver, each step
@@ -41,6 +42,10 @@ PartPile::World::World(const Bin& bin, const TriangleMesh& part, const ConvexHul
   solver.m_numIterations = kIterations;
   solver.m_splitImpulse = 1;
   solver.m_splitImpulsePenetrationThreshold = 0;  // always: pushing apart adds no speed
+  // The forces of a pile at rest are those of the step before, and what is turned into another part
+  // turns back, too: with less of either (Bullet has 0.85 and 0.1) piles creep.
+  solver.m_warmstartingFactor = 1;
+  solver.m_splitImpulseTurnErp = 1;
   // Two fixed directions of friction: with one along the sliding, which hardly has a direction
   // where nothing slides, piles creep.
   solver.m_solverMode |=
@@ -104,6 +109,10 @@ void PartPile::World::addBody(btCollisionShape* shape, const btTransform& pose, 
   info.m_linearDamping = info.m_angularDamping = static_cast<btScalar>(kDamping);
   auto& bodies = moves ? parts_ : bin_bodies_;
   bodies.push_back(std::make_unique<btRigidBody>(info));
+  // Friction pulls points back to where they first touched, up to its limit. What only stopped them
+  // would let through what the solver leaves of the speed, step after step.
+  bodies.back()->setCollisionFlags(bodies.back()->getCollisionFlags() |
+                                   btCollisionObject::CF_HAS_FRICTION_ANCHOR);
   // Never put to sleep: what rests is decided by looking at the whole pile.
   bodies.back()->setActivationState(DISABLE_DEACTIVATION);
   world_.addRigidBody(bodies.back().get());
@@ -126,6 +135,8 @@ double PartPile::World::fastest_m_s() const
 
 void PartPile::World::step()
 {
+  const double slides = std::sqrt(settings_.friction);
+  const double sticks = slides * std::sqrt(settings_.static_friction_rel);
   const double drag = std::exp(-kSlowDrag_1_s * settings_.step_s);
   for (const auto& part : parts_)
   {
@@ -133,6 +144,7 @@ void PartPile::World::step()
     double keep = 1;
     if (speed > settings_.max_speed_m_s) keep = settings_.max_speed_m_s / speed;
     if (speed < kSlow_m_s) keep = drag;
+    part->setFriction(static_cast<btScalar>(speed < kStick_m_s ? sticks : slides));
     part->setLinearVelocity(part->getLinearVelocity() * static_cast<btScalar>(keep));
     part->setAngularVelocity(part->getAngularVelocity() * static_cast<btScalar>(keep));
   }

@@ -20,8 +20,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kMoved_m =
-    0.0005;  // a part that settling again moves further has not been at rest
+constexpr double kMoved_m = 0.0005;   // a part that moves further afterwards has not been at rest
+constexpr double kAfterwards_s = 2;   // at least, simulated, with every part awake
 constexpr float kSpacing_m = 0.001F;  // of the surface points whose depth is measured
 
 struct Options
@@ -75,7 +75,8 @@ void measurePile(const Bin& bin, const TriangleMesh& part, const ConvexHulls& hu
   pile.drop(count, seed);
   figures.simulation_s += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const auto poses = pile.poses();
-  pile.settle();
+  for (double time_s = 0; time_s < kAfterwards_s; time_s += PhysicsSettings{}.rest_s)
+    pile.settle();
   const auto again = pile.poses();
   for (std::size_t k = 0; k < poses.size(); ++k)
   {

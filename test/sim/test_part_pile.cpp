@@ -50,10 +50,11 @@ TEST(PartPile, comesToRestInTheBin)
   ASSERT_EQ(poses.size(), 10U);
   expectInside(bin, part, poses);
   EXPECT_LT(deepest(deepestOverlaps(bin, part, poses, 0.002F)), 0.001);
-  pile.settle();
+  for (int k = 0; k < 2; ++k)
+    pile.settle();
   const auto again = pile.poses();
   for (std::size_t k = 0; k < poses.size(); ++k)
-    EXPECT_LT(furthestMove(part, poses[k], again[k]), 0.0005) << "part " << k;
+    EXPECT_LT(furthestMove(part, poses[k], again[k]), 0.0002) << "part " << k;
 }
 
 TEST(PartPile, laysABoxOnOneOfItsFaces)
@@ -140,13 +141,14 @@ TEST(PartPile, refusesWhatCannotWork)
   const ConvexHulls hulls = convexHulls(part);
   EXPECT_THROW(PartPile({{0.04, 0.04, 0.04}, 0.004}, part, hulls).drop(1, 1),
                std::invalid_argument);
-  EXPECT_THROW(PartPile({{0.08, 0.08, 0.005}, 0.004}, part, hulls).drop(12, 1),
+  EXPECT_THROW(PartPile({{0.08, 0.08, 0.005}, 0.004}, part, hulls).drop(30, 1),
                std::invalid_argument);
   EXPECT_THROW(PartPile({}, part, {}), std::invalid_argument);
   EXPECT_THROW(PartPile({}, part, hulls).remove(0), std::out_of_range);
   PhysicsSettings settings;
   settings.step_s = 0;
   settings.restitution = 1;
+  settings.static_friction_rel = 0.9;
   try
   {
     const PartPile pile({}, part, hulls, settings);
@@ -157,6 +159,7 @@ TEST(PartPile, refusesWhatCannotWork)
     const std::string text = error.what();
     EXPECT_NE(text.find("step_s"), std::string::npos);
     EXPECT_NE(text.find("restitution"), std::string::npos);
+    EXPECT_NE(text.find("static_friction_rel"), std::string::npos);
   }
 }
 

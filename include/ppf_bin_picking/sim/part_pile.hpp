@@ -22,15 +22,18 @@ struct PhysicsSettings
   /// A tenth of the real one: what is a pile at rest does not depend on it, but the solver is the
   /// more exact the less speed gravity adds in a step. > 0.
   double gravity_m_s2 = 1;
-  double friction = 0.35;    ///< Coulomb's coefficient of part on part and part on bin. >= 0.
-  double restitution = 0.1;  ///< Share of the speed that a bounce returns. In [0, 1).
+  double friction = 0.35;  ///< Coulomb's coefficient of part on part and part on bin. >= 0.
+  /// Times larger is it between parts slower than 10 mm/s (its root, between one and the bin).
+  /// >= 1.
+  double static_friction_rel = 1.3;
+  double restitution = 0.1;            ///< Share of the speed that a bounce returns. In [0, 1).
   double rolling_friction_m = 0.0003;  ///< Lever arm of the rolling resistance. >= 0.
   double step_s = 1.0 / 480;           ///< Of the simulation. > 0.
   /// No point of a part moves faster, as if it were handed down rather than dropped: with the step
   /// it decides how deep parts can get into each other in one step. > 0.
   double max_speed_m_s = 0.5;
-  double rest_speed_m_s = 0.002;  ///< A part rests if none of its points is faster. > 0.
-  double rest_s = 0.25;           ///< For so long, all parts at once. > 0.
+  double rest_speed_m_s = 0.005;  ///< A part rests if none of its points is faster. > 0.
+  double rest_s = 1;              ///< For so long, all parts at once. > 0.
 
   /// One sentence per broken rule; empty means usable.
   std::vector<std::string> problems() const;
