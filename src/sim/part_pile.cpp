@@ -62,6 +62,16 @@ void PartPile::settle()
   world_->settle();
 }
 
+void PartPile::wake()
+{
+  world_->wake();
+}
+
+void PartPile::simulate(double time_s)
+{
+  world_->simulate(time_s);
+}
+
 std::vector<Eigen::Isometry3d> PartPile::poses() const
 {
   return world_->poses();

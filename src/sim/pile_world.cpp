@@ -113,8 +113,10 @@ void PartPile::World::addBody(btCollisionShape* shape, const btTransform& pose, 
   // would let through what the solver leaves of the speed, step after step.
   bodies.back()->setCollisionFlags(bodies.back()->getCollisionFlags() |
                                    btCollisionObject::CF_HAS_FRICTION_ANCHOR);
-  // Never put to sleep: what rests is decided by looking at the whole pile.
-  bodies.back()->setActivationState(DISABLE_DEACTIVATION);
+  // Faster parts do not want to sleep any longer.
+  const double half_m_s = settings_.rest_speed_m_s / 2;
+  bodies.back()->setSleepingThresholds(static_cast<btScalar>(half_m_s * scale_),
+                                       static_cast<btScalar>(half_m_s / reach_m_));
   world_.addRigidBody(bodies.back().get());
 }
 
@@ -125,14 +127,6 @@ double PartPile::World::speed_m_s(const btRigidBody& body) const
          body.getAngularVelocity().length() * reach_m_;
 }
 
-double PartPile::World::fastest_m_s() const
-{
-  double fastest = 0;
-  for (const auto& part : parts_)
-    fastest = std::max(fastest, speed_m_s(*part));
-  return fastest;
-}
-
 void PartPile::World::step()
 {
   const double slides = std::sqrt(settings_.friction);
@@ -140,6 +134,8 @@ void PartPile::World::step()
   const double drag = std::exp(-kSlowDrag_1_s * settings_.step_s);
   for (const auto& part : parts_)
   {
+    if (!part->isActive()) continue;
+    part->setDeactivationTime(0);  // Bullet's clock, of which there is one a process, stands still
     const double speed = speed_m_s(*part);
     double keep = 1;
     if (speed > settings_.max_speed_m_s) keep = settings_.max_speed_m_s / speed;
@@ -151,50 +147,95 @@ void PartPile::World::step()
   world_.stepSimulation(static_cast<btScalar>(settings_.step_s), 0);
 }
 
+/// What touches the part or nearly does. Bullet wakes sleepers beside what is awake, but not beside
+/// what is gone.
+void PartPile::World::wakeAround(const btRigidBody& body)
+{
+  const btBroadphasePairArray& pairs =
+      broadphase_.getOverlappingPairCache()->getOverlappingPairArray();
+  for (int k = 0; k < pairs.size(); ++k)
+  {
+    const auto* first = static_cast<btCollisionObject*>(pairs[k].m_pProxy0->m_clientObject);
+    const auto* second = static_cast<btCollisionObject*>(pairs[k].m_pProxy1->m_clientObject);
+    if (first == &body) second->activate();
+    if (second == &body) first->activate();
+  }
+}
+
 void PartPile::World::remove(std::size_t index)
 {
   const auto part = parts_.begin() + static_cast<std::ptrdiff_t>(index);
+  wakeAround(**part);
   world_.removeRigidBody(part->get());
   parts_.erase(part);
 }
 
-/// In windows of rest_s: the last one is that in which no part was fast or got anywhere.
+void PartPile::World::wake()
+{
+  for (const auto& part : parts_)
+    part->activate();
+}
+
+bool PartPile::World::isAwake() const
+{
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const auto& part) { return part->isActive(); });
+}
+
+void PartPile::World::simulate(double time_s)
+{
+  for (int left = static_cast<int>(std::ceil(time_s / settings_.step_s)); left > 0; --left)
+    step();
+}
+
+/// In windows of rest_s. Parts that touch fall asleep together, after one in which all of them
+/// rested.
 void PartPile::World::settle()
 {
   const int steps = static_cast<int>(std::ceil(settings_.rest_s / settings_.step_s));
   std::size_t strays = 0;
-  for (double time_s = 0; time_s < kMostSettling_s; time_s += steps * settings_.step_s)
+  for (double time_s = 0; isAwake(); time_s += steps * settings_.step_s)
   {
+    if (time_s >= kMostSettling_s)
+      throw std::runtime_error(
+          "the parts do not come to rest: give a higher rest speed, or a shorter step");
     const std::vector<Eigen::Isometry3d> start = poses();
-    double fastest = 0;
-    for (int i = 0; i < steps; ++i)
+    std::vector<double> fastest_m_s(parts_.size(), 0);
+    for (int i = 0; i < steps && isAwake(); ++i)
     {
       step();
-      fastest = std::max(fastest, fastest_m_s());
+      for (std::size_t k = 0; k < parts_.size(); ++k)
+        fastest_m_s[k] = std::max(fastest_m_s[k], speed_m_s(*parts_[k]));
     }
-    const std::size_t left = dropStrays();
-    strays += left;
+    strays += dropStrays();
     if (strays > kMostDrops * parts_.size())
       throw std::invalid_argument("the bin overflows: drop fewer parts, or give a larger bin");
-    if (left == 0 && fastest < settings_.rest_speed_m_s && furthestMove_m(start) < kCreep_m) return;
+    letSleep(start, fastest_m_s);
   }
-  throw std::runtime_error(
-      "the parts do not come to rest: give a higher rest speed, or a shorter step");
 }
 
-/// The furthest that any part has moved since.
-double PartPile::World::furthestMove_m(const std::vector<Eigen::Isometry3d>& since) const
+/// Says which of the parts that are awake want to sleep, as Bullet looks at their speed only. With
+/// the next step it puts those to sleep of which all that they touch want to.
+void PartPile::World::letSleep(const std::vector<Eigen::Isometry3d>& since,
+                               const std::vector<double>& speeds_m_s)
 {
-  double furthest = 0;
   const std::vector<Eigen::Isometry3d> now = poses();
-  for (std::size_t k = 0; k < now.size(); ++k)
+  for (std::size_t k = 0; k < parts_.size(); ++k)
   {
-    const Eigen::Isometry3d move = since[k].inverse() * now[k];
-    const double turn_rad = Eigen::AngleAxisd(move.linear()).angle();
-    const Eigen::Vector3d center = mass_.T_part_body.translation();
-    furthest = std::max(furthest, (move * center - center).norm() + turn_rad * reach_m_);
+    if (!parts_[k]->isActive()) continue;
+    const bool rests =
+        speeds_m_s[k] < settings_.rest_speed_m_s && move_m(since[k], now[k]) < kCreep_m;
+    parts_[k]->setActivationState(rests ? WANTS_DEACTIVATION : ACTIVE_TAG);
   }
-  return furthest;
+}
+
+/// At most, of any of its points.
+double PartPile::World::move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const
+{
+  const Eigen::Isometry3d move = from.inverse() * to;
+  const double turn_rad = Eigen::AngleAxisd(move.linear()).angle();
+  const Eigen::Vector3d center = mass_.T_part_body.translation();
+  return (move * center - center).norm() + turn_rad * reach_m_;
 }
 
 std::vector<Eigen::Isometry3d> PartPile::World::poses() const
