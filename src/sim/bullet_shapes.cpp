@@ -4,8 +4,28 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kMargin = 0.008;  // Bullet's units: of the part's extent
+// In Bullet's units, that is of the part's extent:
+constexpr double kMargin = 0.008;
+constexpr double kSimpler = 0.001;  // what a vertex must stick out by to be kept
+
+Points toPoints(const TriangleMesh& mesh)
+{
+  Points points;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    points.push_back(vertex.cast<double>());
+  return points;
 }
+
+/// Without those that hardly stick out: where faces moved inwards, a vertex of theirs has become
+/// several, close together.
+Points simplifiedVertices(const TriangleMesh& hull, double tolerance_m)
+{
+  const Points all = toPoints(hull);
+  if (all.size() <= 8) return all;
+  const Points fewer = toPoints(simplifiedHull(all, tolerance_m, all.size()).mesh);
+  return fewer.empty() ? all : fewer;
+}
+}  // namespace
 
 btVector3 bulletPoint(const Eigen::Vector3d& point)
 {
@@ -33,8 +53,8 @@ std::unique_ptr<btConvexHullShape> hullShape(const Points& points,
 {
   const ConvexHull core = convexHull(points, kMargin / scale);
   auto shape = std::make_unique<btConvexHullShape>();
-  for (const Eigen::Vector3f& vertex : core.mesh.vertices)
-    shape->addPoint(bulletPoint(T_shape_points * vertex.cast<double>() * scale), false);
+  for (const Eigen::Vector3d& vertex : simplifiedVertices(core.mesh, kSimpler / scale))
+    shape->addPoint(bulletPoint(T_shape_points * vertex * scale), false);
   shape->setMargin(static_cast<btScalar>(core.shrunk_m * scale));
   shape->recalcLocalAabb();
   return shape;
@@ -44,10 +64,7 @@ PartShape::PartShape(const ConvexHulls& hulls, const Eigen::Isometry3d& T_body_p
 {
   for (const TriangleMesh& hull : hulls)
   {
-    Points points;
-    for (const Eigen::Vector3f& vertex : hull.vertices)
-      points.push_back(vertex.cast<double>());
-    hulls_.push_back(hullShape(points, T_body_part, scale));
+    hulls_.push_back(hullShape(toPoints(hull), T_body_part, scale));
     compound_.addChildShape(btTransform::getIdentity(), hulls_.back().get());
   }
 }

@@ -26,6 +26,7 @@ std::vector<std::string> PhysicsSettings::problems() const
   };
   require(gravity_m_s2 > 0, "gravity_m_s2 must be above 0");
   require(friction >= 0, "friction must not be negative");
+  require(static_friction_rel >= 1, "static_friction_rel must be at least 1");
   require(restitution >= 0 && restitution < 1, "restitution must be in [0, 1)");
   require(rolling_friction_m >= 0, "rolling_friction_m must not be negative");
   require(step_s > 0, "step_s must be above 0");
@@ -59,6 +60,16 @@ void PartPile::remove(std::size_t index)
 void PartPile::settle()
 {
   world_->settle();
+}
+
+void PartPile::wake()
+{
+  world_->wake();
+}
+
+void PartPile::simulate(double time_s)
+{
+  world_->simulate(time_s);
 }
 
 std::vector<Eigen::Isometry3d> PartPile::poses() const

@@ -87,6 +87,8 @@ std::size_t PartPile::World::dropStrays()
     ++found;
     btTransform start = randomStart();
     liftAbovePile(start, part.get());
+    wakeAround(*part);
+    part->activate();
     part->setWorldTransform(start);
     part->setInterpolationWorldTransform(start);
     part->setLinearVelocity(btVector3(0, 0, 0));

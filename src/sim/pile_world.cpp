@@ -12,8 +12,9 @@ constexpr double kMostSettling_s = 60;  // simulated
 constexpr double kCreep_m = 0.0001;     // no point of a resting part gets further in rest_s
 constexpr std::size_t kMostDrops = 3;   // of each part, on average, until it settles
 constexpr double kDamping = 0.1;        // share of the speed lost in a second
+constexpr double kStick_m_s = 0.01;     // slower parts stick
 // Slow parts move as if through oil, which swallows the solver's jitter. What is not supported
-// still moves: the hundredth of its weight is enough to make it faster than a resting part may be.
+// still moves: a two-thousandth of its weight takes it further in a second than a resting part may.
 constexpr double kSlow_m_s = 0.05;
 constexpr double kSlowDrag_1_s = 5;
 constexpr int kIterations = 60;        // of the solver, each step
@@ -41,6 +42,10 @@ PartPile::World::World(const Bin& bin, const TriangleMesh& part, const ConvexHul
   solver.m_numIterations = kIterations;
   solver.m_splitImpulse = 1;
   solver.m_splitImpulsePenetrationThreshold = 0;  // always: pushing apart adds no speed
+  // The forces of a pile at rest are those of the step before, and what is turned into another part
+  // turns back, too: with less of either (Bullet has 0.85 and 0.1) piles creep.
+  solver.m_warmstartingFactor = 1;
+  solver.m_splitImpulseTurnErp = 1;
   // Two fixed directions of friction: with one along the sliding, which hardly has a direction
   // where nothing slides, piles creep.
   solver.m_solverMode |=
@@ -104,8 +109,14 @@ void PartPile::World::addBody(btCollisionShape* shape, const btTransform& pose, 
   info.m_linearDamping = info.m_angularDamping = static_cast<btScalar>(kDamping);
   auto& bodies = moves ? parts_ : bin_bodies_;
   bodies.push_back(std::make_unique<btRigidBody>(info));
-  // Never put to sleep: what rests is decided by looking at the whole pile.
-  bodies.back()->setActivationState(DISABLE_DEACTIVATION);
+  // Friction pulls points back to where they first touched, up to its limit. What only stopped them
+  // would let through what the solver leaves of the speed, step after step.
+  bodies.back()->setCollisionFlags(bodies.back()->getCollisionFlags() |
+                                   btCollisionObject::CF_HAS_FRICTION_ANCHOR);
+  // Faster parts do not want to sleep any longer.
+  const double half_m_s = settings_.rest_speed_m_s / 2;
+  bodies.back()->setSleepingThresholds(static_cast<btScalar>(half_m_s * scale_),
+                                       static_cast<btScalar>(half_m_s / reach_m_));
   world_.addRigidBody(bodies.back().get());
 }
 
@@ -116,73 +127,115 @@ double PartPile::World::speed_m_s(const btRigidBody& body) const
          body.getAngularVelocity().length() * reach_m_;
 }
 
-double PartPile::World::fastest_m_s() const
-{
-  double fastest = 0;
-  for (const auto& part : parts_)
-    fastest = std::max(fastest, speed_m_s(*part));
-  return fastest;
-}
-
 void PartPile::World::step()
 {
+  const double slides = std::sqrt(settings_.friction);
+  const double sticks = slides * std::sqrt(settings_.static_friction_rel);
   const double drag = std::exp(-kSlowDrag_1_s * settings_.step_s);
   for (const auto& part : parts_)
   {
+    if (!part->isActive()) continue;
+    part->setDeactivationTime(0);  // Bullet's clock, of which there is one a process, stands still
     const double speed = speed_m_s(*part);
     double keep = 1;
     if (speed > settings_.max_speed_m_s) keep = settings_.max_speed_m_s / speed;
     if (speed < kSlow_m_s) keep = drag;
+    part->setFriction(static_cast<btScalar>(speed < kStick_m_s ? sticks : slides));
     part->setLinearVelocity(part->getLinearVelocity() * static_cast<btScalar>(keep));
     part->setAngularVelocity(part->getAngularVelocity() * static_cast<btScalar>(keep));
   }
   world_.stepSimulation(static_cast<btScalar>(settings_.step_s), 0);
 }
 
+/// What touches the part or nearly does. Bullet wakes sleepers beside what is awake, but not beside
+/// what is gone.
+void PartPile::World::wakeAround(const btRigidBody& body)
+{
+  const btBroadphasePairArray& pairs =
+      broadphase_.getOverlappingPairCache()->getOverlappingPairArray();
+  for (int k = 0; k < pairs.size(); ++k)
+  {
+    const auto* first = static_cast<btCollisionObject*>(pairs[k].m_pProxy0->m_clientObject);
+    const auto* second = static_cast<btCollisionObject*>(pairs[k].m_pProxy1->m_clientObject);
+    if (first == &body) second->activate();
+    if (second == &body) first->activate();
+  }
+}
+
 void PartPile::World::remove(std::size_t index)
 {
   const auto part = parts_.begin() + static_cast<std::ptrdiff_t>(index);
+  wakeAround(**part);
   world_.removeRigidBody(part->get());
   parts_.erase(part);
 }
 
-/// In windows of rest_s: the last one is that in which no part was fast or got anywhere.
+void PartPile::World::wake()
+{
+  for (const auto& part : parts_)
+    part->activate();
+}
+
+bool PartPile::World::isAwake() const
+{
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const auto& part) { return part->isActive(); });
+}
+
+void PartPile::World::simulate(double time_s)
+{
+  for (int left = static_cast<int>(std::ceil(time_s / settings_.step_s)); left > 0; --left)
+    step();
+}
+
+/// In windows of rest_s. Parts that touch fall asleep together, after one in which all of them
+/// rested.
 void PartPile::World::settle()
 {
   const int steps = static_cast<int>(std::ceil(settings_.rest_s / settings_.step_s));
   std::size_t strays = 0;
-  for (double time_s = 0; time_s < kMostSettling_s; time_s += steps * settings_.step_s)
+  for (double time_s = 0; isAwake(); time_s += steps * settings_.step_s)
   {
+    if (time_s >= kMostSettling_s)
+      throw std::runtime_error(
+          "the parts do not come to rest: give a higher rest speed, or a shorter step");
     const std::vector<Eigen::Isometry3d> start = poses();
-    double fastest = 0;
-    for (int i = 0; i < steps; ++i)
+    std::vector<double> fastest_m_s(parts_.size(), 0);
+    for (int i = 0; i < steps && isAwake(); ++i)
     {
       step();
-      fastest = std::max(fastest, fastest_m_s());
+      for (std::size_t k = 0; k < parts_.size(); ++k)
+        fastest_m_s[k] = std::max(fastest_m_s[k], speed_m_s(*parts_[k]));
     }
-    const std::size_t left = dropStrays();
-    strays += left;
+    strays += dropStrays();
     if (strays > kMostDrops * parts_.size())
       throw std::invalid_argument("the bin overflows: drop fewer parts, or give a larger bin");
-    if (left == 0 && fastest < settings_.rest_speed_m_s && furthestMove_m(start) < kCreep_m) return;
+    letSleep(start, fastest_m_s);
   }
-  throw std::runtime_error(
-      "the parts do not come to rest: give a higher rest speed, or a shorter step");
 }
 
-/// The furthest that any part has moved since.
-double PartPile::World::furthestMove_m(const std::vector<Eigen::Isometry3d>& since) const
+/// Says which of the parts that are awake want to sleep, as Bullet looks at their speed only. With
+/// the next step it puts those to sleep of which all that they touch want to.
+void PartPile::World::letSleep(const std::vector<Eigen::Isometry3d>& since,
+                               const std::vector<double>& speeds_m_s)
 {
-  double furthest = 0;
   const std::vector<Eigen::Isometry3d> now = poses();
-  for (std::size_t k = 0; k < now.size(); ++k)
+  for (std::size_t k = 0; k < parts_.size(); ++k)
   {
-    const Eigen::Isometry3d move = since[k].inverse() * now[k];
-    const double turn_rad = Eigen::AngleAxisd(move.linear()).angle();
-    const Eigen::Vector3d center = mass_.T_part_body.translation();
-    furthest = std::max(furthest, (move * center - center).norm() + turn_rad * reach_m_);
+    if (!parts_[k]->isActive()) continue;
+    const bool rests =
+        speeds_m_s[k] < settings_.rest_speed_m_s && move_m(since[k], now[k]) < kCreep_m;
+    parts_[k]->setActivationState(rests ? WANTS_DEACTIVATION : ACTIVE_TAG);
   }
-  return furthest;
+}
+
+/// At most, of any of its points.
+double PartPile::World::move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const
+{
+  const Eigen::Isometry3d move = from.inverse() * to;
+  const double turn_rad = Eigen::AngleAxisd(move.linear()).angle();
+  const Eigen::Vector3d center = mass_.T_part_body.translation();
+  return (move * center - center).norm() + turn_rad * reach_m_;
 }
 
 std::vector<Eigen::Isometry3d> PartPile::World::poses() const

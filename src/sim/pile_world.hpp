@@ -31,6 +31,8 @@ public:
   void drop(int count, std::uint32_t seed);
   void remove(std::size_t index);
   void settle();
+  void wake();
+  void simulate(double time_s);
   std::vector<Eigen::Isometry3d> poses() const;
   std::size_t count() const { return parts_.size(); }
 
@@ -41,9 +43,11 @@ private:
   bool liftAbovePile(btTransform& start, const btRigidBody* itself);
   bool isOverFloor(const btRigidBody& body) const;
   std::size_t dropStrays();
-  double furthestMove_m(const std::vector<Eigen::Isometry3d>& since) const;
+  bool isAwake() const;
+  void wakeAround(const btRigidBody& body);
+  void letSleep(const std::vector<Eigen::Isometry3d>& since, const std::vector<double>& speeds_m_s);
+  double move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const;
   double speed_m_s(const btRigidBody& body) const;
-  double fastest_m_s() const;
   void step();
 
   btVector3 toBullet(const Eigen::Vector3d& point_m) const { return bulletPoint(point_m * scale_); }

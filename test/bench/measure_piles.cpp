@@ -20,8 +20,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kMoved_m =
-    0.0005;  // a part that settling again moves further has not been at rest
+constexpr double kMoved_m = 0.0005;   // a part that moves further afterwards has not been at rest
+constexpr double kAfterwards_s = 2;   // simulated
 constexpr float kSpacing_m = 0.001F;  // of the surface points whose depth is measured
 
 struct Options
@@ -40,14 +40,14 @@ struct Figures
   int failures = 0;
   double simulation_s = 0;  ///< Of one thread.
   std::vector<double> overlaps_m;
-
-  double overlapMm(double share) const
-  {
-    if (overlaps_m.empty()) return 0;
-    return 1e3 *
-           overlaps_m[static_cast<std::size_t>(share * static_cast<double>(overlaps_m.size() - 1))];
-  }
+  std::vector<double> creep_m;  ///< Of each part, with all awake.
 };
+
+double percentileMm(const std::vector<double>& sorted_m, double share)
+{
+  if (sorted_m.empty()) return 0;
+  return 1e3 * sorted_m[static_cast<std::size_t>(share * static_cast<double>(sorted_m.size() - 1))];
+}
 
 /// Whether a part's middle is not over the floor, or a corner of it lies below the floor or, where
 /// that is lower than the rim, beyond a wall.
@@ -75,13 +75,17 @@ void measurePile(const Bin& bin, const TriangleMesh& part, const ConvexHulls& hu
   pile.drop(count, seed);
   figures.simulation_s += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const auto poses = pile.poses();
-  pile.settle();
+  pile.simulate(kAfterwards_s);
   const auto again = pile.poses();
+  pile.wake();
+  pile.simulate(kAfterwards_s);
+  const auto awake = pile.poses();
   for (std::size_t k = 0; k < poses.size(); ++k)
   {
     ++figures.parts;
     if (isOutside(bin, part, poses[k])) ++figures.outside;
     if (furthestMove(part, poses[k], again[k]) > kMoved_m) ++figures.moving;
+    figures.creep_m.push_back(furthestMove(part, again[k], awake[k]));
   }
   const auto overlaps = deepestOverlaps(bin, part, poses, kSpacing_m);
   figures.overlaps_m.insert(figures.overlaps_m.end(), overlaps.begin(), overlaps.end());
@@ -108,11 +112,13 @@ void measurePart(const std::string& part_file, const Options& options)
     }
   }
   std::sort(figures.overlaps_m.begin(), figures.overlaps_m.end());
+  std::sort(figures.creep_m.begin(), figures.creep_m.end());
   const int piles = std::max(1, options.seeds - figures.failures);
-  std::printf("| %s | %zu | %d | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.1f |\n",
+  std::printf("| %s | %zu | %d | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
               description.model_id.c_str(), hulls.size(), options.seeds, figures.parts,
-              figures.failures, figures.outside, figures.moving, figures.overlapMm(0.5),
-              figures.overlapMm(0.99), figures.overlapMm(1),
+              figures.failures, figures.outside, figures.moving,
+              percentileMm(figures.creep_m, 0.99), percentileMm(figures.overlaps_m, 0.5),
+              percentileMm(figures.overlaps_m, 0.99), percentileMm(figures.overlaps_m, 1),
               figures.simulation_s / piles * 40 / std::max(1, options.count));
   std::fflush(stdout);
 }
@@ -120,9 +126,10 @@ void measurePart(const std::string& part_file, const Options& options)
 void run(const Options& options)
 {
   std::puts(
-      "| part | hulls | seeds | parts | failed piles | outside | moving | overlap p50 mm | p99 mm "
-      "| max mm | CPU s per 40 parts |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
+      "| part | hulls | seeds | parts | failed piles | outside | moving | awake creep p99 mm | "
+      "overlap "
+      "p50 mm | p99 mm | max mm | CPU s per 40 parts |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::string& part_file : options.part_files)
     measurePart(part_file, options);
 }

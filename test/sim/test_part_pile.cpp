@@ -50,10 +50,72 @@ TEST(PartPile, comesToRestInTheBin)
   ASSERT_EQ(poses.size(), 10U);
   expectInside(bin, part, poses);
   EXPECT_LT(deepest(deepestOverlaps(bin, part, poses, 0.002F)), 0.001);
-  pile.settle();
-  const auto again = pile.poses();
+  pile.wake();
+  pile.simulate(2);
+  const auto awake = pile.poses();
   for (std::size_t k = 0; k < poses.size(); ++k)
-    EXPECT_LT(furthestMove(part, poses[k], again[k]), 0.0005) << "part " << k;
+    EXPECT_LT(furthestMove(part, poses[k], awake[k]), 0.0002) << "part " << k;
+}
+
+void expectSame(const std::vector<Eigen::Isometry3d>& poses,
+                const std::vector<Eigen::Isometry3d>& others)
+{
+  ASSERT_EQ(poses.size(), others.size());
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    EXPECT_EQ(poses[k].matrix(), others[k].matrix()) << "part " << k;  // every bit
+}
+
+bool differ(const std::vector<Eigen::Isometry3d>& poses,
+            const std::vector<Eigen::Isometry3d>& others)
+{
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    if (poses[k].matrix() != others[k].matrix()) return true;
+  return false;
+}
+
+TEST(PartPile, sleepsUntilItIsWoken)
+{
+  const TriangleMesh part = angleMesh();
+  PartPile pile({{0.2, 0.15, 0.2}, 0.004}, part, convexHulls(part));
+  pile.drop(8, 1);
+  const auto asleep = pile.poses();
+  pile.settle();
+  pile.simulate(1);
+  expectSame(asleep, pile.poses());
+  pile.wake();
+  pile.simulate(1);
+  EXPECT_TRUE(differ(asleep, pile.poses()));  // else nothing above says anything
+}
+
+TEST(PartPile, leavesAloneWhatDoesNotTouchThePartTakenOut)
+{
+  const TriangleMesh part = angleMesh();
+  PartPile pile({{1, 1, 0.1}, 0.004}, part, convexHulls(part));
+  pile.drop(4, 1);
+  auto before = pile.poses();
+  for (std::size_t k = 1; k < before.size(); ++k)
+    ASSERT_GT((before[k].translation() - before[0].translation()).norm(), 0.1);
+  pile.remove(0);
+  before.erase(before.begin());
+  pile.settle();
+  expectSame(before, pile.poses());
+  pile.wake();
+  pile.simulate(1);
+  EXPECT_TRUE(differ(before, pile.poses()));  // else nothing above says anything
+}
+
+TEST(PartPile, wakesWhatAPartFallsOnto)
+{
+  const TriangleMesh part = angleMesh();
+  PartPile pile({{0.1, 0.08, 0.2}, 0.004}, part, convexHulls(part));
+  pile.drop(5, 1);
+  const auto before = pile.poses();
+  pile.drop(5, 2);
+  const auto after = pile.poses();
+  double furthest = 0;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    furthest = std::max(furthest, furthestMove(part, before[k], after[k]));
+  EXPECT_GT(furthest, 0.001);
 }
 
 TEST(PartPile, laysABoxOnOneOfItsFaces)
@@ -106,8 +168,7 @@ TEST(PartPile, repeatsItselfForASeedWhateverElseRuns)
   std::thread thread([&] { other = run(12); });
   beside = run(11);
   thread.join();
-  for (std::size_t k = 0; k < first.size(); ++k)
-    EXPECT_EQ(first[k].matrix(), beside[k].matrix());  // every bit
+  expectSame(first, beside);
   EXPECT_NE(first[0].matrix(), other[0].matrix());
 }
 
@@ -124,9 +185,7 @@ TEST(PartPile, letsTheRestFallWhereAPartWasTakenOut)
                        [&](const auto& a, const auto& b) { return height(a) < height(b); });
   pile.remove(static_cast<std::size_t>(lowest - before.begin()));
   before.erase(lowest);
-  const auto untouched = pile.poses();
-  for (std::size_t k = 0; k < before.size(); ++k)
-    EXPECT_EQ(untouched[k].matrix(), before[k].matrix());  // nothing moves before settle()
+  expectSame(before, pile.poses());  // nothing moves before settle()
   pile.settle();
   const auto after = pile.poses();
   ASSERT_EQ(after.size(), 2U);
@@ -140,13 +199,16 @@ TEST(PartPile, refusesWhatCannotWork)
   const ConvexHulls hulls = convexHulls(part);
   EXPECT_THROW(PartPile({{0.04, 0.04, 0.04}, 0.004}, part, hulls).drop(1, 1),
                std::invalid_argument);
-  EXPECT_THROW(PartPile({{0.08, 0.08, 0.005}, 0.004}, part, hulls).drop(12, 1),
+  // There is room for one of these.
+  const TriangleMesh sphere = sphereMesh(0.015F);
+  EXPECT_THROW(PartPile({{0.035, 0.035, 0.001}, 0.004}, sphere, convexHulls(sphere)).drop(2, 1),
                std::invalid_argument);
   EXPECT_THROW(PartPile({}, part, {}), std::invalid_argument);
   EXPECT_THROW(PartPile({}, part, hulls).remove(0), std::out_of_range);
   PhysicsSettings settings;
   settings.step_s = 0;
   settings.restitution = 1;
+  settings.static_friction_rel = 0.9;
   try
   {
     const PartPile pile({}, part, hulls, settings);
@@ -157,6 +219,7 @@ TEST(PartPile, refusesWhatCannotWork)
     const std::string text = error.what();
     EXPECT_NE(text.find("step_s"), std::string::npos);
     EXPECT_NE(text.find("restitution"), std::string::npos);
+    EXPECT_NE(text.find("static_friction_rel"), std::string::npos);
   }
 }
 
