@@ -102,7 +102,8 @@ TEST_F(DetectorTest, explainsTheRightPoseAsItsBest)
   EXPECT_GT(right.owned_share, 0.9);
   EXPECT_GT(right.surface.hypotheses, 0U);
   EXPECT_GT(right.boundary.hypotheses, 0U);
-  EXPECT_GE(right.surface.best_votes, right.surface.votes / right.surface.hypotheses);
+  EXPECT_GE(right.surface.best_votes,
+            right.surface.votes / static_cast<double>(right.surface.hypotheses));
   EXPECT_GT(right.candidates, 0U);
   EXPECT_GT(right.score, 0.9);
   EXPECT_LT(right.refined_shift_m, 0.02 * bracket_.diameter());
