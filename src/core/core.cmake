@@ -18,6 +18,7 @@ add_library(
   ${core_dir}/detection_result.cpp
   ${core_dir}/detector.cpp
   ${core_dir}/detector_config.cpp
+  ${core_dir}/explanation.cpp
   ${core_dir}/mismatch.cpp
   ${core_dir}/model_renderer.cpp
   ${core_dir}/neighbor_search.cpp
@@ -28,7 +29,6 @@ add_library(
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
   ${core_dir}/points_image.cpp
-  ${core_dir}/explanation.cpp
   ${core_dir}/pose_clustering.cpp
   ${core_dir}/pose_covariance.cpp
   ${core_dir}/pose_errors.cpp

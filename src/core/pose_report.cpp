@@ -46,6 +46,9 @@ UnreliableReason reasonOf(const DetectedPose& pose, bool rivals_known, const Clu
     return UnreliableReason::kSpread;
   if (config.mismatch_test && pose.slide_share > config.max_slide_share)
     return UnreliableReason::kSlippage;
+  if (config.mismatch_test && pose.margin < config.min_margin) return UnreliableReason::kRunnerUp;
+  if (config.mismatch_test && pose.relative_score < config.min_relative_score)
+    return UnreliableReason::kLowScore;
   if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share ||
       pose.confirmed_px < config.min_confirmed_px)
     return UnreliableReason::kLowScore;
@@ -90,6 +93,14 @@ std::string detailOf(const DetectedPose& pose, bool rivals_known, const Oriented
     return "the measured surface goes on beyond " + percent(pose.slide_share) +
            " of the outline that should stop a slide (max_slide_share " +
            percent(config.max_slide_share) + ")";
+  if (pose.reason == UnreliableReason::kRunnerUp && pose.margin < config.min_margin)
+    return "another pose explains the same points almost as well: it lacks " +
+           percent(pose.margin) + " of the evidence (min_margin " + percent(config.min_margin) +
+           ")";
+  if (pose.relative_score < config.min_relative_score)
+    return "its score is only " + percent(pose.relative_score) +
+           " of the best one here, so that the sensor is no excuse (min_relative_score " +
+           percent(config.min_relative_score) + ")";
   if (pose.reliability < config.min_reliability)
     return "right with a probability of " + percent(pose.reliability) + " only (min_reliability " +
            percent(config.min_reliability) + "): " + weaknessOf(pose);
@@ -170,6 +181,47 @@ void addCovariances(const RangeImage& image, const std::vector<const PpfModel*>&
               });
 }
 
+/// What each standing pose has of its cluster's hypotheses.
+std::vector<ClusterShare> sharesOf(const std::vector<const PpfModel*>& models,
+                                   const std::vector<Candidate>& candidates,
+                                   const std::vector<SelectedPose>& selected,
+                                   const DetectionResult& result)
+{
+  std::vector<Eigen::Vector3f> centers;
+  std::vector<std::int32_t> clusters;
+  for (const SelectedPose& standing : selected)
+  {
+    const Candidate& candidate = candidates[standing.candidate];
+    centers.push_back(candidate.T_camera_model * models[candidate.model]->data().center);
+    clusters.push_back(candidate.cluster);
+  }
+  return shareClusters(result.distribution, centers, clusters);
+}
+
+/// The best score of a standing pose, for each model.
+std::vector<double> bestScores(std::size_t models, const std::vector<Candidate>& candidates,
+                               const std::vector<SelectedPose>& selected)
+{
+  std::vector<double> best(models, 0.0);
+  for (const SelectedPose& standing : selected)
+  {
+    const Candidate& candidate = candidates[standing.candidate];
+    best[candidate.model] =
+        std::max(best[candidate.model], poseScore(candidate.evidence, standing.confirmed));
+  }
+  return best;
+}
+
+void sortResult(DetectionResult& result)
+{
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const DetectedPose& a, const DetectedPose& b)
+                   { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
+  std::stable_sort(result.regions.begin(), result.regions.end(),
+                   [](const MismatchingRegion& a, const MismatchingRegion& b)
+                   { return a.score > b.score; });
+}
+
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
@@ -206,20 +258,17 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
                  const std::vector<SelectedPose>& selected, const RangeImage& image,
                  DetectionResult& result)
 {
-  std::vector<Eigen::Vector3f> centers;
-  std::vector<std::int32_t> clusters;
   std::vector<bool> has_pose(result.clusters.size(), false);
   for (const SelectedPose& standing : selected)
   {
-    const Candidate& candidate = candidates[standing.candidate];
-    centers.push_back(candidate.T_camera_model * models[candidate.model]->data().center);
-    clusters.push_back(candidate.cluster);
-    if (candidate.cluster >= 0) has_pose[static_cast<std::size_t>(candidate.cluster)] = true;
+    const std::int32_t cluster = candidates[standing.candidate].cluster;
+    if (cluster >= 0) has_pose[static_cast<std::size_t>(cluster)] = true;
   }
-  const std::vector<ClusterShare> shares = shareClusters(result.distribution, centers, clusters);
+  const std::vector<ClusterShare> shares = sharesOf(models, candidates, selected, result);
   const std::vector<Ambiguity> ambiguities =
       assessAmbiguity(models, config, candidates, selected, image.depth.size());
   const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
+  const std::vector<double> best_scores = bestScores(models.size(), candidates, selected);
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
@@ -229,6 +278,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     pose.slide_share = ambiguities[i].slide_share;
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
+    pose.relative_score = pose.score / best_scores[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
     {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
@@ -246,11 +296,6 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   }
   addCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
-  std::stable_sort(result.poses.begin(), result.poses.end(),
-                   [](const DetectedPose& a, const DetectedPose& b)
-                   { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
-  std::stable_sort(result.regions.begin(), result.regions.end(),
-                   [](const MismatchingRegion& a, const MismatchingRegion& b)
-                   { return a.score > b.score; });
+  sortResult(result);
 }
 }  // namespace ppf_bin_picking
