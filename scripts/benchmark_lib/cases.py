@@ -19,7 +19,14 @@ VARIANTS = {
     "default": {},
     "original": {"clustering": "greedy", "mismatch_test": False, "min_score": 0.5},
     "coverage": {"mismatch_test": False, "min_score": 0.5},
-    "spread": {"poses_per_cluster": 1, "max_slide_share": 1.0, "min_margin": -1.0, "min_relative_score": 0, "min_reliability": 0, "min_score": 0.5},
+    "spread": {
+        "poses_per_cluster": 1,
+        "max_slide_share": 1.0,
+        "min_margin": -1.0,
+        "min_relative_score": 0,
+        "min_reliability": 0,
+        "min_score": 0.5,
+    },
 }
 VARIANT_TEXTS = {
     "default": "all of the detector",

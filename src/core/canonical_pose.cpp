@@ -12,8 +12,7 @@ constexpr double kEqualTurn = 1e-9;  // of a quaternion's components
 /// The reference orientation: 60 degrees about (1, 2, 3).
 Eigen::Quaterniond reference()
 {
-  return Eigen::Quaterniond(
-      Eigen::AngleAxisd(M_PI / 3, Eigen::Vector3d(1, 2, 3).normalized()));
+  return Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 3, Eigen::Vector3d(1, 2, 3).normalized()));
 }
 
 /// The turn of a pose from an orientation, w not negative.

@@ -10,7 +10,7 @@
 #include "ppf_bin_picking/core/reliability.hpp"
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 
 namespace ppf_bin_picking
 {
@@ -30,10 +30,7 @@ OrientedBox boxOfPart(const PpfModel& model, const Eigen::Isometry3d& T_cloud_mo
 
 std::string percent(double share)
 {
-  std::ostringstream text;
-  text.precision(0);
-  text << std::fixed << 100 * share << " %";
-  return text.str();
+  return std::to_string(std::lround(100 * share)) + " %";
 }
 
 /// Why a pose cannot be trusted; kNone if it can.

@@ -135,8 +135,9 @@ std::string explanationText(const PoseExplanation& explanation, const DetectorCo
        << "candidates:   " << explanation.candidates << " refined near it\n"
        << evidenceText(explanation.evidence) << "score:        " << decimal(explanation.score, 3)
        << " (min_score " << config.min_score << "), support "
-       << decimal(explanation.evidence.support(), 3) << ", evidence balance " << decimal(explanation.balance, 0) << " pixels, hold "
-       << decimal(explanation.hold, 4) << "\n"
+       << decimal(explanation.evidence.support(), 3) << ", evidence balance "
+       << decimal(explanation.balance, 0) << " pixels, hold " << decimal(explanation.hold, 4)
+       << "\n"
        << "refinement:   moves it by " << decimal(1000 * explanation.refined_shift_m, 2)
        << " mm and " << decimal(180 / M_PI * explanation.refined_turn_rad, 2)
        << " degrees, to score " << decimal(explanation.refined_score, 3) << "\n"
