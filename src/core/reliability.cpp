@@ -17,7 +17,8 @@ struct Term
   UnreliableReason reason;
 };
 
-// Printed by scripts/fit_reliability.
+// Fitted as scripts/fit_reliability does, before reference points of symmetric parts were thinned
+// out.
 constexpr double kIntercept = -1.735;
 
 std::array<Term, 9> termsOf(const DetectedPose& pose)

@@ -18,7 +18,7 @@ struct Reliability
 /// visible share and confirmed pixels.
 ///
 /// Fitted on simulated scenes of the package's own parts, foreign objects and shiny surfaces among
-/// them; docs/reliability.md tells how well it is calibrated on parts that it was not fitted on.
+/// them; docs/decisions.md tells what it keeps of parts that it was not fitted on.
 /// Scores and shares are in [0, 1].
 /// @param pose  All fields but reliability, reliable and reason are read.
 Reliability assessReliability(const DetectedPose& pose);
