@@ -18,9 +18,7 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
-constexpr std::size_t kBatch = 32;   // candidates between two looks at the deadline
-constexpr float kMergedRel = 0.02F;  // fitted candidates nearer than this, relative to the diameter
-constexpr double kMergedAngle = 0.08;    // ... and turned by less than this [rad] are one
+constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.

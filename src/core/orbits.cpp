@@ -83,9 +83,10 @@ std::vector<std::uint8_t> inFundamentalDomain(const SymmetryGroup& symmetries,
   std::vector<std::uint8_t> inside(points.size(), 1);
   for (const Eigen::Isometry3d& motion : symmetries.motions())
   {
-    const Eigen::Isometry3f T = motion.cast<float>();
+    const Eigen::Isometry3f T_model_model = motion.cast<float>();
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (direction.dot(T * (points[i] + center) - center - points[i]) > tie_m) inside[i] = 0;
+      if (direction.dot(T_model_model * (points[i] + center) - center - points[i]) > tie_m)
+        inside[i] = 0;
   }
   return inside;
 }

@@ -37,7 +37,7 @@ Eigen::Vector3f onTriangle(const TriangleMesh& mesh, std::uint32_t triangle,
   const float area2 = normal.squaredNorm();
   if (area2 > 0)
   {
-    const Eigen::Vector3f foot = point - normal.dot(point - a) / area2 * normal;
+    Eigen::Vector3f foot = point - normal.dot(point - a) / area2 * normal;
     if ((b - a).cross(foot - a).dot(normal) >= 0 && (c - b).cross(foot - b).dot(normal) >= 0 &&
         (a - c).cross(foot - c).dot(normal) >= 0)
       return foot;

@@ -206,11 +206,11 @@ private:
   static Eigen::Vector3d tidiestAcross(const Eigen::Vector3d& first, const Eigen::Vector3d& other,
                                        double repeat_rad)
   {
-    const Eigen::Vector3d across = (other - first.dot(other) * first).normalized();
+    Eigen::Vector3d across = (other - first.dot(other) * first).normalized();
     for (double turn_rad = 0; turn_rad < 2 * M_PI; turn_rad += repeat_rad)
     {
       const Eigen::Vector3d axis = Eigen::AngleAxisd(turn_rad, first) * across;
-      const Eigen::Vector3d tidy = snapped(axis);
+      Eigen::Vector3d tidy = snapped(axis);
       if (std::min((tidy - axis).norm(), (tidy + axis).norm()) > 0 &&
           std::abs(tidy.dot(first)) < 1e-9)
         return tidy;
@@ -246,11 +246,11 @@ private:
     };
     std::vector<DiscreteSymmetry> generators = {{line(a), 2 * M_PI / first.order},
                                                 {line(b), 2 * M_PI / across.order}};
-    const std::optional<SymmetryGroup> two =
+    std::optional<SymmetryGroup> two =
         alone ? groupThatHolds(generators) : std::optional<SymmetryGroup>();
     if (first.order != 2) return two;
     generators.push_back({line((a + b + a.cross(b)).normalized()), 2 * M_PI / 3});
-    const std::optional<SymmetryGroup> tetrahedron = groupThatHolds(generators);
+    std::optional<SymmetryGroup> tetrahedron = groupThatHolds(generators);
     return tetrahedron ? tetrahedron : two;
   }
 
