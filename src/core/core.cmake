@@ -35,6 +35,7 @@ add_library(
   ${core_dir}/pose_information.cpp
   ${core_dir}/pose_refinement.cpp
   ${core_dir}/pose_report.cpp
+  ${core_dir}/pose_verdict.cpp
   ${core_dir}/ppf.cpp
   ${core_dir}/ppf_matcher.cpp
   ${core_dir}/ppf_model.cpp
