@@ -76,11 +76,10 @@ class StatusesTest(unittest.TestCase):
         self.expect(self.answer(self.good), Response.OK)
 
     def test_ok_gives_the_pose_in_the_clouds_frame(self):
-        alone = to_message(box_scenes.scan([("steps", STEPS)]))
-        answer = self.answer(alone)
+        answer = self.answer(self.good)
         self.expect(answer, Response.OK)
         self.assertEqual(answer.header.frame_id, "camera")
-        self.assertEqual(answer.header.stamp, alone.header.stamp)
+        self.assertEqual(answer.header.stamp, self.good.header.stamp)
         self.assertEqual([pose.id for pose in answer.poses], ["steps/1"])
         self.expect_pose(answer.poses[0].pose.pose, STEPS)
         self.assertGreater(answer.poses[0].pose.covariance[0], 0)

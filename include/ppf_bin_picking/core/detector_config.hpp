@@ -61,7 +61,7 @@ struct DetectorConfig
   double max_slide_share = 0.85;    ///< Largest share of open outline against a slide. [0, 1].
   double min_margin = 0.1;          ///< Least lead over the best other pose there. [-1, 1].
   double min_relative_score = 0.6;  ///< Least share of the best score in the scene. [0, 1].
-  double min_reliability = 0.8;     ///< Least probability that a pose is right. [0, 1].
+  double min_reliability = 0.85;    ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
