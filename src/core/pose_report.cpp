@@ -28,18 +28,18 @@ OrientedBox boxOfPart(const PpfModel& model, const Eigen::Isometry3d& T_cloud_mo
   return box;
 }
 
-MismatchingRegion regionOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
-                           const PpfModel& model, const DetectorConfig& config)
+MismatchingRegion regionOf(const DetectedPose& pose, const PoseVerdict& verdict,
+                           const ClusterShare& share, const PpfModel& model)
 {
   MismatchingRegion region;
   region.model = pose.model;
-  region.reason = pose.reason;
-  region.box =
-      pose.reason == UnreliableReason::kSpread ? share.box : boxOfPart(model, pose.T_cloud_model);
+  region.reason = verdict.reason;
+  region.box = verdict.reason == UnreliableReason::kSpread ? share.box
+                                                           : boxOfPart(model, pose.T_cloud_model);
   region.T_cloud_best = pose.T_cloud_model;
   region.score = pose.score;
   region.hypotheses = share.hypotheses;
-  region.detail = detailOf(pose, rivals_known, share.box, model, config);
+  region.detail = verdict.detail;
   return region;
 }
 
@@ -152,11 +152,11 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
                                    [&](const Candidate& candidate)
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
     if (best == candidates.end()) continue;  // its groups had too few votes to be looked at
-    DetectedPose pose =
-        poseOfCandidate(*best, *models[best->model], best->evidence.confirmed_weight, 0.0);
-    pose.reason = UnreliableReason::kSpread;
+    const PpfModel& model = *models[best->model];
+    const DetectedPose pose = poseOfCandidate(*best, model, best->evidence.confirmed_weight, 0.0);
+    const ClusterShare whole = {cluster.box, cluster.hypotheses};
     result.regions.push_back(
-        regionOf(pose, true, {cluster.box, cluster.hypotheses}, *models[pose.model], config));
+        regionOf(pose, verdictOf(pose, true, whole, model, config), whole, model));
   }
 }
 }  // namespace
@@ -204,11 +204,10 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     }
     pose.spread = sideSum(share.box) / model.diameter();
     pose.reliability = assessReliability(pose).probability;
-    const bool rivals_known = ambiguities[i].rivals_known;
-    pose.reason = reasonOf(pose, rivals_known, share, model, config);
+    const PoseVerdict verdict = verdictOf(pose, ambiguities[i].rivals_known, share, model, config);
+    pose.reason = verdict.reason;
     pose.reliable = pose.reason == UnreliableReason::kNone;
-    if (!pose.reliable)
-      result.regions.push_back(regionOf(pose, rivals_known, share, model, config));
+    if (!pose.reliable) result.regions.push_back(regionOf(pose, verdict, share, model));
     result.poses.push_back(pose);
   }
   addCovariances(image, models, config, result.poses);

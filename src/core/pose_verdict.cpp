@@ -19,9 +19,9 @@ std::string percent(double share)
 }
 
 /// What pulled the reliability down.
-std::string weaknessOf(const DetectedPose& pose)
+std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
 {
-  switch (pose.reason)
+  switch (weakest)
   {
     case UnreliableReason::kRunnerUp:
       return "another pose explains the same points almost as well, with " + percent(pose.margin) +
@@ -39,61 +39,63 @@ std::string weaknessOf(const DetectedPose& pose)
              std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }
+/// The gates of the mismatch test before those of the score.
+PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share,
+                             const PpfModel& model, const DetectorConfig& config)
+{
+  const double spread_m = sideSum(share.box);
+  if (config.clustering == Clustering::kDbscan &&
+      spread_m > config.max_spread_rel * model.diameter())
+    return {UnreliableReason::kSpread,
+            "the hypotheses spread over " + percent(spread_m / model.diameter()) +
+                " of the part's diameter, more than max_spread_rel allows (" +
+                percent(config.max_spread_rel) + ")"};
+  if (pose.slide_share > config.max_slide_share)
+    return {UnreliableReason::kSlippage,
+            "the measured surface goes on beyond " + percent(pose.slide_share) +
+                " of the outline that should stop a slide (max_slide_share " +
+                percent(config.max_slide_share) + ")"};
+  if (pose.outline_broken > kMaxOutlineBroken)
+    return {UnreliableReason::kSlippage,
+            "the measured surface goes on beyond " + percent(pose.outline_broken) +
+                " of its outline, more than the " + percent(kMaxOutlineBroken) + " that may be"};
+  if (pose.margin < config.min_margin)
+    return {UnreliableReason::kRunnerUp,
+            "another pose explains the same points almost as well: it lacks " +
+                percent(pose.margin) + " of the evidence (min_margin " +
+                percent(config.min_margin) + ")"};
+  if (pose.relative_score < config.min_relative_score)
+    return {UnreliableReason::kLowScore,
+            "its score is only " + percent(pose.relative_score) +
+                " of the best one here, so that the sensor is no excuse (min_relative_score " +
+                percent(config.min_relative_score) + ")"};
+  return {};
+}
 }  // namespace
 
-UnreliableReason reasonOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
-                          const PpfModel& model, const DetectorConfig& config)
-{
-  if (!rivals_known) return UnreliableReason::kRunnerUp;
-  const bool spread = sideSum(share.box) > config.max_spread_rel * model.diameter();
-  if (config.mismatch_test && config.clustering == Clustering::kDbscan && spread)
-    return UnreliableReason::kSpread;
-  if (config.mismatch_test &&
-      (pose.slide_share > config.max_slide_share || pose.outline_broken > kMaxOutlineBroken))
-    return UnreliableReason::kSlippage;
-  if (config.mismatch_test && pose.margin < config.min_margin) return UnreliableReason::kRunnerUp;
-  if (config.mismatch_test && pose.relative_score < config.min_relative_score)
-    return UnreliableReason::kLowScore;
-  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share ||
-      pose.confirmed_px < config.min_confirmed_px)
-    return UnreliableReason::kLowScore;
-  if (config.mismatch_test && pose.reliability < config.min_reliability)
-    return assessReliability(pose).weakest;
-  return UnreliableReason::kNone;
-}
-
-std::string detailOf(const DetectedPose& pose, bool rivals_known, const OrientedBox& spread,
-                     const PpfModel& model, const DetectorConfig& config)
+PoseVerdict verdictOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
+                      const PpfModel& model, const DetectorConfig& config)
 {
   if (!rivals_known)
-    return "the time limit came before every other pose there was looked at: raise time_limit_s";
-  if (pose.reason == UnreliableReason::kSpread &&
-      sideSum(spread) > config.max_spread_rel * model.diameter())
-    return "the hypotheses spread over " + percent(sideSum(spread) / model.diameter()) +
-           " of the part's diameter, more than max_spread_rel allows (" +
-           percent(config.max_spread_rel) + ")";
-  if (pose.reason == UnreliableReason::kSlippage && pose.slide_share > config.max_slide_share)
-    return "the measured surface goes on beyond " + percent(pose.slide_share) +
-           " of the outline that should stop a slide (max_slide_share " +
-           percent(config.max_slide_share) + ")";
-  if (pose.outline_broken > kMaxOutlineBroken)
-    return "the measured surface goes on beyond " + percent(pose.outline_broken) +
-           " of its outline, more than the " + percent(kMaxOutlineBroken) + " that may be";
-  if (pose.reason == UnreliableReason::kRunnerUp && pose.margin < config.min_margin)
-    return "another pose explains the same points almost as well: it lacks " +
-           percent(pose.margin) + " of the evidence (min_margin " + percent(config.min_margin) +
-           ")";
-  if (pose.relative_score < config.min_relative_score)
-    return "its score is only " + percent(pose.relative_score) +
-           " of the best one here, so that the sensor is no excuse (min_relative_score " +
-           percent(config.min_relative_score) + ")";
-  if (pose.reliability < config.min_reliability)
-    return "right with a probability of " + percent(pose.reliability) + " only (min_reliability " +
-           percent(config.min_reliability) + "): " + weaknessOf(pose);
-  return "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
-         "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
-         percent(config.min_visible_share) + "), confirmed by " +
-         std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
-         std::to_string(config.min_confirmed_px) + ")";
+    return {UnreliableReason::kRunnerUp,
+            "the time limit came before every other pose there was looked at: raise time_limit_s"};
+  if (config.mismatch_test)
+  {
+    PoseVerdict verdict = ambiguityVerdict(pose, share, model, config);
+    if (verdict.reason != UnreliableReason::kNone) return verdict;
+  }
+  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share ||
+      pose.confirmed_px < config.min_confirmed_px)
+    return {UnreliableReason::kLowScore,
+            "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
+                "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
+                percent(config.min_visible_share) + "), confirmed by " +
+                std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
+                std::to_string(config.min_confirmed_px) + ")"};
+  if (!config.mismatch_test || pose.reliability >= config.min_reliability) return {};
+  const UnreliableReason weakest = assessReliability(pose).weakest;
+  return {weakest, "right with a probability of " + percent(pose.reliability) +
+                       " only (min_reliability " + percent(config.min_reliability) +
+                       "): " + weaknessOf(pose, weakest)};
 }
 }  // namespace ppf_bin_picking

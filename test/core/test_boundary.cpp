@@ -21,11 +21,6 @@ constexpr float kJump_m = 0.002F;
 constexpr float kNormalGate_m = 0.005F;
 constexpr float kPixel_m = 0.001F;  // of smallCamera() at 0.6 m
 
-PlacedMesh wall(double z_m)
-{
-  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
-}
-
 /// A square of 0.12 m before a wall, turned and tilted.
 class SquareBeforeWall : public ::testing::Test
 {

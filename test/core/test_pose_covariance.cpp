@@ -1,4 +1,3 @@
-#include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/pose_covariance.hpp"
 
 #include "support/shapes.hpp"
@@ -15,31 +14,9 @@ namespace ppf_bin_picking
 {
 namespace
 {
-/// @param noise_m  Standard deviation of the depth.
-RangeImage imageOf(const std::vector<PlacedMesh>& scene, double noise_m = 0.0002)
+RangeImage noisyImage(const std::vector<PlacedMesh>& scene, float noise_m = 0.0002F)
 {
-  RangeImage image;
-  image.camera = smallCamera();
-  image.depth = renderDepth(scene, image.camera);
-  std::mt19937 rng(9);
-  std::normal_distribution<float> noise(0, static_cast<float>(noise_m));
-  for (float& depth_m : image.depth)
-    if (depth_m > 0) depth_m += noise(rng);
-  image.in_roi.assign(image.depth.size(), 1);
-  estimateImageNormals(image, 2, 0.003F, 1);
-  return image;
-}
-
-PpfModel trained(const TriangleMesh& mesh, const SymmetryGroup& symmetries = SymmetryGroup())
-{
-  ModelParameters coarse;
-  coarse.step_rel = 0.2;
-  return PpfModel::train(mesh, symmetries, coarse);
-}
-
-PlacedMesh wall(double z_m)
-{
-  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
+  return imageOf(scene, 0.003F, noise_m, 9);
 }
 
 Matrix6d covarianceOf(const RangeImage& image, const PpfModel& model, const Eigen::Isometry3d& pose)
@@ -56,8 +33,8 @@ const TriangleMesh& plateMesh()
 TEST(PoseCovariance, isSmallSymmetricAndPositive)
 {
   const Eigen::Isometry3d pose = poseOf(0.5, {1, 0.4, 0}, {0.01, 0, 0.6});
-  const RangeImage image = imageOf({wall(0.8), {plateMesh(), pose}});
-  const Matrix6d covariance = covarianceOf(image, trained(plateMesh()), pose);
+  const RangeImage image = noisyImage({wall(0.8), {plateMesh(), pose}});
+  const Matrix6d covariance = covarianceOf(image, coarselyTrained(plateMesh()), pose);
   EXPECT_TRUE(covariance.isApprox(covariance.transpose()));
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(covariance).eigenvalues()(0), 0);
   EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.002);
@@ -67,11 +44,11 @@ TEST(PoseCovariance, isSmallSymmetricAndPositive)
 TEST(PoseCovariance, growsWithTheNoise)
 {
   const Eigen::Isometry3d pose = poseOf(0.5, {1, 0.4, 0}, {0.01, 0, 0.6});
-  const PpfModel plate = trained(plateMesh());
+  const PpfModel plate = coarselyTrained(plateMesh());
   const Matrix6d quiet =
-      covarianceOf(imageOf({wall(0.8), {plateMesh(), pose}}, 0.0002), plate, pose);
+      covarianceOf(noisyImage({wall(0.8), {plateMesh(), pose}}, 0.0002F), plate, pose);
   const Matrix6d noisy =
-      covarianceOf(imageOf({wall(0.8), {plateMesh(), pose}}, 0.0006), plate, pose);
+      covarianceOf(noisyImage({wall(0.8), {plateMesh(), pose}}, 0.0006F), plate, pose);
   const Eigen::Vector3d normal = pose.linear().col(2);  // surfaces alone hold the plate along it
   const double before = normal.dot(quiet.topLeftCorner<3, 3>() * normal);
   const double after = normal.dot(noisy.topLeftCorner<3, 3>() * normal);
@@ -82,9 +59,9 @@ TEST(PoseCovariance, growsWithTheNoise)
 // A face within a larger one: shifts in its plane and turns about its normal are free, but finite.
 TEST(PoseCovariance, isLargeButFiniteWhereNothingHolds)
 {
-  const PpfModel plate = trained(plateMesh());
+  const PpfModel plate = coarselyTrained(plateMesh());
   const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
-  const Matrix6d covariance = covarianceOf(imageOf({wall(0.597)}), plate, pose);
+  const Matrix6d covariance = covarianceOf(noisyImage({wall(0.597)}), plate, pose);
   const double shift_m = 0.35 * plate.diameter();
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), shift_m, 0.05 * shift_m);
   EXPECT_NEAR(std::sqrt(covariance(1, 1)), shift_m, 0.05 * shift_m);
@@ -97,8 +74,9 @@ TEST(PoseCovariance, leavesTheTurnOfARevolutionOpen)
   const TriangleMesh mesh = cylinderMesh(0.012F, 0.08F, 64);
   const SymmetryAxis axis{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   const Eigen::Isometry3d pose = poseOf(1.3, {1, 0.4, 0}, {0.01, 0, 0.6});
-  const RangeImage image = imageOf({wall(0.8), {mesh, pose}});
-  const Matrix6d covariance = covarianceOf(image, trained(mesh, SymmetryGroup({}, {axis})), pose);
+  const RangeImage image = noisyImage({wall(0.8), {mesh, pose}});
+  const Matrix6d covariance =
+      covarianceOf(image, coarselyTrained(mesh, SymmetryGroup({}, {axis})), pose);
   const Eigen::Matrix3d turns = covariance.bottomRightCorner<3, 3>();
   const Eigen::Vector3d along = pose.linear().col(2), across = pose.linear().col(0);
   EXPECT_NEAR(along.dot(turns * along), M_PI * M_PI / 3, 0.1);
@@ -111,9 +89,9 @@ TEST(PoseCovariance, isAboutTheMeshsOrigin)
   const Eigen::Vector3f offset(0.2F, -0.1F, 0.05F);
   const Eigen::Isometry3d pose = poseOf(0.5, {1, 0.4, 0}, {0.01, 0, 0.6});
   const Eigen::Isometry3d far_pose = pose * Eigen::Translation3d(-offset.cast<double>());
-  const RangeImage image = imageOf({wall(0.8), {plateMesh(), pose}});
-  const Matrix6d near = covarianceOf(image, trained(plateMesh()), pose);
-  const Matrix6d far = covarianceOf(image, trained(shifted(plateMesh(), offset)), far_pose);
+  const RangeImage image = noisyImage({wall(0.8), {plateMesh(), pose}});
+  const Matrix6d near = covarianceOf(image, coarselyTrained(plateMesh()), pose);
+  const Matrix6d far = covarianceOf(image, coarselyTrained(shifted(plateMesh(), offset)), far_pose);
   const Eigen::Vector3d arm = far_pose.translation() - pose.translation();
   Matrix6d map = Matrix6d::Identity();
   for (int k = 0; k < 3; ++k)

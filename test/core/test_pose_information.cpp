@@ -15,18 +15,6 @@ namespace
 {
 constexpr float kNormalGate_m = 0.003F;
 
-PpfModel trained(const TriangleMesh& mesh, const SymmetryGroup& symmetries = SymmetryGroup())
-{
-  ModelParameters coarse;
-  coarse.step_rel = 0.2;
-  return PpfModel::train(mesh, symmetries, coarse);
-}
-
-PlacedMesh wall(double z_m)
-{
-  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
-}
-
 float holdIn(const RangeImage& image, const PpfModel& model, const Eigen::Isometry3d& pose)
 {
   return gatherInformation(image, model, pose.cast<float>(), DetectorConfig())
@@ -41,7 +29,7 @@ const TriangleMesh& plateMesh()
 
 TEST(PoseInformation, aFreePlateIsHeldAndOneWithinALargerFaceIsNot)
 {
-  const PpfModel plate = trained(plateMesh());
+  const PpfModel plate = coarselyTrained(plateMesh());
   const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
   const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}, kNormalGate_m), plate, pose);
   EXPECT_GT(free, 0.1F);
@@ -50,7 +38,7 @@ TEST(PoseInformation, aFreePlateIsHeldAndOneWithinALargerFaceIsNot)
 
 TEST(PoseInformation, aPlateOnASlideIsHeldLess)
 {
-  const PpfModel plate = trained(plateMesh());
+  const PpfModel plate = coarselyTrained(plateMesh());
   const Eigen::Isometry3d pose = poseOf(0, {1, 0, 0}, {0, 0, 0.6});
   const float free = holdIn(imageOf({wall(0.8), {plateMesh(), pose}}, kNormalGate_m), plate, pose);
   const TriangleMesh bar = boxMesh({0.3F, 0.06F, 0.006F});  // goes on beyond two of its sides
@@ -63,12 +51,12 @@ TEST(PoseInformation, whatTheSymmetriesHideNeedNotBeHeld)
   const SymmetryAxis axis{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   const Eigen::Isometry3d pose = poseOf(1.3, {1, 0.4, 0}, {0.01, 0, 0.6});
   const RangeImage image = imageOf({wall(0.8), {mesh, pose}}, kNormalGate_m);
-  const float turning = holdIn(image, trained(mesh), pose);
+  const float turning = holdIn(image, coarselyTrained(mesh), pose);
   EXPECT_LT(turning, 0.01F);
-  EXPECT_GT(holdIn(image, trained(mesh, SymmetryGroup({}, {axis})), pose), 0.02F);
+  EXPECT_GT(holdIn(image, coarselyTrained(mesh, SymmetryGroup({}, {axis})), pose), 0.02F);
   const SymmetryAxis other{Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero()};
-  EXPECT_GT(holdIn(image, trained(mesh, SymmetryGroup({}, {axis, other})), pose),
-            holdIn(image, trained(mesh, SymmetryGroup({}, {axis})), pose) - 1e-4F);
+  EXPECT_GT(holdIn(image, coarselyTrained(mesh, SymmetryGroup({}, {axis, other})), pose),
+            holdIn(image, coarselyTrained(mesh, SymmetryGroup({}, {axis})), pose) - 1e-4F);
 }
 
 TEST(MotionJacobian, isTheChangeOfACoordinateWithASmallMotion)

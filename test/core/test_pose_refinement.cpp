@@ -1,4 +1,3 @@
-#include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
 #include "support/shapes.hpp"
@@ -16,31 +15,9 @@ namespace
 {
 constexpr float kNoise_m = 0.0003F;
 
-PpfModel trained(const TriangleMesh& mesh)
+RangeImage noisyImage(const std::vector<PlacedMesh>& scene, float noise_m)
 {
-  ModelParameters coarse;
-  coarse.step_rel = 0.2;
-  return PpfModel::train(mesh, SymmetryGroup(), coarse);
-}
-
-/// What the camera sees of a scene, with normals; all of it in the region.
-RangeImage imageOf(const std::vector<PlacedMesh>& scene, float noise_m, std::uint32_t seed = 1)
-{
-  RangeImage image;
-  image.camera = smallCamera();
-  image.depth = renderDepth(scene, image.camera);
-  std::mt19937 rng(seed);
-  std::normal_distribution<float> noise(0, 1);
-  for (float& z : image.depth)
-    if (z > 0) z += noise_m * noise(rng);
-  image.in_roi.assign(image.depth.size(), 1);
-  estimateImageNormals(image, 2, 0.004F, 1);
-  return image;
-}
-
-PlacedMesh wall(double z_m)
-{
-  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
+  return imageOf(scene, 0.004F, noise_m);
 }
 
 /// The pose turned about the part's centre and shifted, both in the camera's frame.
@@ -82,7 +59,7 @@ protected:
   }
 
   DetectorConfig config_;
-  const PpfModel model_ = trained(bracketMesh());
+  const PpfModel model_ = coarselyTrained(bracketMesh());
 };
 
 TEST_F(BracketRefinement, comesBackFromFivePercentAndTenDegreesToLessThanTheNoise)
@@ -92,7 +69,7 @@ TEST_F(BracketRefinement, comesBackFromFivePercentAndTenDegreesToLessThanTheNois
   int right = 0, trials = 0;
   for (int i = 0; i < 5; ++i)
   {
-    const RangeImage image = imageOf({wall(0.6), {bracketMesh(), pose(i)}}, kNoise_m);
+    const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(i)}}, kNoise_m);
     for (int k = 0; k < 6; ++k, ++trials)
     {
       const Eigen::Vector3d axis = randomDirection(rng).cast<double>();
@@ -109,7 +86,7 @@ TEST_F(BracketRefinement, comesBackFromFivePercentAndTenDegreesToLessThanTheNois
 
 TEST_F(BracketRefinement, leavesThePoseThatFits)
 {
-  const RangeImage image = imageOf({wall(0.6), {bracketMesh(), pose(2)}}, 0);
+  const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(2)}}, 0);
   const PoseError error(model_, pose(2), refined(image, model_, pose(2), config_));
   EXPECT_LT(error.center_m.norm(), 0.001 * model_.diameter());
   EXPECT_LT(error.angle_rad, 0.2 * M_PI / 180);
@@ -117,7 +94,7 @@ TEST_F(BracketRefinement, leavesThePoseThatFits)
 
 TEST_F(BracketRefinement, refinesAPartHalfHidden)
 {
-  RangeImage image = imageOf({wall(0.6), {bracketMesh(), pose(1)}}, kNoise_m);
+  RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(1)}}, kNoise_m);
   const Eigen::Vector3f center = (pose(1) * model_.data().center.cast<double>()).cast<float>();
   const int middle = static_cast<int>(image.camera.project(center).x());
   for (int v = 0; v < image.camera.height; ++v)
@@ -135,7 +112,7 @@ TEST_F(BracketRefinement, refinesAPartHalfHidden)
 
 TEST_F(BracketRefinement, takesAsManyStepsAsTheConfigurationSays)
 {
-  const RangeImage image = imageOf({wall(0.6), {bracketMesh(), pose(0)}}, kNoise_m);
+  const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(0)}}, kNoise_m);
   const Eigen::Isometry3f start =
       disturbed(pose(0), model_, 0.15, {1, 0, 0.5}, {0.002, 0.002, 0.002}).cast<float>();
   config_.icp_iterations = 0;
@@ -153,11 +130,11 @@ TEST_F(BracketRefinement, takesAsManyStepsAsTheConfigurationSays)
 TEST_F(BracketRefinement, leavesThePoseWhereNothingOfThePartIsSeen)
 {
   const Eigen::Isometry3f start = pose(0).cast<float>();
-  const RangeImage nothing = imageOf({}, 0);
+  const RangeImage nothing = noisyImage({}, 0);
   EXPECT_EQ(refinePose(nothing, model_, start, config_).matrix(), start.matrix());
-  const RangeImage far = imageOf({wall(1.0)}, 0);
+  const RangeImage far = noisyImage({wall(1.0)}, 0);
   EXPECT_EQ(refinePose(far, model_, start, config_).matrix(), start.matrix());
-  const RangeImage near = imageOf({wall(0.2)}, 0);
+  const RangeImage near = noisyImage({wall(0.2)}, 0);
   EXPECT_EQ(refinePose(near, model_, start, config_).matrix(), start.matrix());
   for (const Eigen::Vector3d& place :
        {Eigen::Vector3d(3, 0, 0.5), Eigen::Vector3d(0, 0, -0.5), Eigen::Vector3d(0, 0, 0)})
@@ -169,7 +146,7 @@ TEST_F(BracketRefinement, leavesThePoseWhereNothingOfThePartIsSeen)
 
 TEST_F(BracketRefinement, returnsARotation)
 {
-  const RangeImage image = imageOf({wall(0.6), {bracketMesh(), pose(3)}}, kNoise_m);
+  const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(3)}}, kNoise_m);
   const Eigen::Isometry3f start =
       disturbed(pose(3), model_, 0.2, {0, 1, 0.5}, {0.003, 0, 0}).cast<float>();
   const Eigen::Matrix3f rotation = refinePose(image, model_, start, config_).linear();
@@ -183,11 +160,11 @@ TEST(RefinePose, doesNotMoveAlongAPlaneThatGoesOn)
   // open, the height is not. (A tilted start is moved by the first step: until the face lies in the
   // plane, the measured surface seems to end where the two cross.)
   const TriangleMesh mesh = boxMesh({0.08F, 0.06F, 0.006F});
-  const PpfModel model = trained(mesh);
+  const PpfModel model = coarselyTrained(mesh);
   const Eigen::Isometry3d T_camera_plate =
       poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6}) * poseOf(0.3, {1, 2, 0}, {0, 0, 0});
   const RangeImage image =
-      imageOf({{shifted(squareMesh(1.0F), {0, 0, 0.003F}), T_camera_plate}}, 0.0001F);
+      noisyImage({{shifted(squareMesh(1.0F), {0, 0, 0.003F}), T_camera_plate}}, 0.0001F);
   const Eigen::Isometry3d start = T_camera_plate * poseOf(0, {1, 0, 0}, {0.004, -0.003, 0.001}) *
                                   poseOf(0.2, {0, 0, 1}, {0, 0, 0});
   const Eigen::Isometry3d T_plate_start = T_camera_plate.inverse() * start;
@@ -204,9 +181,9 @@ TEST(RefinePose, doesNotMoveAlongAPlaneThatGoesOn)
 
 TEST(RefinePose, findsTheMiddleOfASphere)
 {
-  const PpfModel model = trained(sphereMesh(0.03F));
+  const PpfModel model = coarselyTrained(sphereMesh(0.03F));
   const Eigen::Isometry3d truth = poseOf(0, {1, 0, 0}, {0.01, -0.02, 0.5});
-  const RangeImage image = imageOf({wall(0.7), {sphereMesh(0.03F), truth}}, 0.0002F);
+  const RangeImage image = noisyImage({wall(0.7), {sphereMesh(0.03F), truth}}, 0.0002F);
   const Eigen::Isometry3d start = poseOf(0.8, {1, 2, 3}, {0.012, -0.018, 0.502});
   const Eigen::Isometry3d found = refined(image, model, start, DetectorConfig());
   EXPECT_LT((found.translation() - truth.translation()).norm(), 0.0002);
@@ -215,10 +192,10 @@ TEST(RefinePose, findsTheMiddleOfASphere)
 TEST(RefinePose, holdsAPlateByItsOutline)
 {
   const TriangleMesh mesh = boxMesh({0.08F, 0.06F, 0.006F});
-  const PpfModel model = trained(mesh);
+  const PpfModel model = coarselyTrained(mesh);
   const Eigen::Isometry3d truth =
       poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6}) * poseOf(0.2, {1, 2, 0.5}, {0, 0, 0});
-  const RangeImage image = imageOf({wall(0.65), {mesh, truth}}, 0.0002F);
+  const RangeImage image = noisyImage({wall(0.65), {mesh, truth}}, 0.0002F);
   const Eigen::Isometry3d start = truth * poseOf(0.08, {0, 0, 1}, {0.004, -0.003, 0});
   const Eigen::Isometry3d found = refined(image, model, start, DetectorConfig());
   EXPECT_LT((found.translation() - truth.translation()).norm(), 0.0007) << "less than a pixel";

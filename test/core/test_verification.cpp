@@ -45,18 +45,6 @@ RangeImage perfectImage(const std::vector<PlacedMesh>& scene)
   return image;
 }
 
-PpfModel trained(const TriangleMesh& mesh)
-{
-  ModelParameters coarse;
-  coarse.step_rel = 0.2;
-  return PpfModel::train(mesh, SymmetryGroup(), coarse);
-}
-
-PlacedMesh wall(double z_m)
-{
-  return {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, z_m})};
-}
-
 /// A plate of 80 x 60 x 6 mm that looks at the camera, slanted a little, far before a wall.
 class VerificationTest : public ::testing::Test
 {
@@ -87,7 +75,7 @@ protected:
   DetectorConfig config_;
   const int middle_px_ = 160;
   const TriangleMesh mesh_ = boxMesh({0.08F, 0.06F, 0.006F});
-  const PpfModel plate_ = trained(mesh_);
+  const PpfModel plate_ = coarselyTrained(mesh_);
   const Eigen::Isometry3d T_camera_plate_ =
       poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6}) * poseOf(0.1, {1, 2, 0}, {0, 0, 0});
 };
@@ -232,7 +220,7 @@ TEST_F(VerificationTest, surfacesFlatToTheLineOfSightNeedNotBeSeen)
   const Eigen::Isometry3d T_camera_edge_on =
       poseOf(0, {1, 0, 0}, {0, 0, 0.6}) * poseOf(1.45, {1, 0, 0}, {0, 0, 0});
   const TriangleMesh square = squareMesh(0.05F);
-  const PpfModel sheet = trained(square);
+  const PpfModel sheet = coarselyTrained(square);
   const PoseEvidence evidence =
       gatherEvidence(perfectImage({wall(0.8)}), sheet, T_camera_edge_on.cast<float>(), config_);
   EXPECT_GT(evidence.visible_px, 500);
@@ -242,7 +230,7 @@ TEST_F(VerificationTest, surfacesFlatToTheLineOfSightNeedNotBeSeen)
 TEST_F(VerificationTest, aSheetIsConfirmedFromEitherSide)
 {
   const TriangleMesh square = squareMesh(0.04F);
-  const PpfModel sheet = trained(square);
+  const PpfModel sheet = coarselyTrained(square);
   for (const double turn_rad : {0.0, M_PI})
   {
     const Eigen::Isometry3d T_camera_sheet = poseOf(turn_rad, {1, 0, 0}, {0, 0, 0.6});

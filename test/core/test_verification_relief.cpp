@@ -27,8 +27,7 @@ protected:
 
   RangeImage imageAt(const Eigen::Isometry3d& pose) const
   {
-    const PlacedMesh wall = {squareMesh(1.0F), poseOf(M_PI, {1, 0, 0}, {0, 0, 0.8})};
-    return imageOf({wall, {mesh_, pose}}, kNormalGate_m);
+    return imageOf({wall(0.8), {mesh_, pose}}, kNormalGate_m);
   }
 
   PoseEvidence evidenceAt(const Eigen::Isometry3d& pose, const RangeImage& image) const
@@ -37,7 +36,7 @@ protected:
   }
 
   const TriangleMesh mesh_ = ribbedPlate(0.0035F);
-  const PpfModel plate_ = PpfModel::train(mesh_, SymmetryGroup(), {0.2, 30});
+  const PpfModel plate_ = coarselyTrained(mesh_);
   const Eigen::Isometry3d pose_ =
       poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6}) * poseOf(0.25, {1, 2, 0}, {0, 0, 0});
 };
@@ -60,7 +59,7 @@ TEST_F(RibbedPlate, isBlamedForTheNormalsOfAnotherSurface)
   for (std::size_t i = 0; i < image.normals.size(); ++i)
     if (image.depth[i] < 0.7F) image.normals[i] = Eigen::Vector3f(0.7F, 0.5F, -0.5F).normalized();
   const TriangleMesh flat = boxMesh({0.08F, 0.06F, 0.006F});
-  const PpfModel plate = PpfModel::train(flat, SymmetryGroup(), {0.2, 30});
+  const PpfModel plate = coarselyTrained(flat);
   const PoseEvidence evidence = gatherEvidence(image, plate, pose_.cast<float>(), DetectorConfig());
   EXPECT_GT(evidence.wrong_normal, 0.3 * evidence.expected());
 }

@@ -20,6 +20,7 @@ set(core_tests
     test_pose_errors
     test_pose_information
     test_pose_refinement
+    test_pose_verdict
     test_ppf
     test_ppf_matcher
     test_ppf_model

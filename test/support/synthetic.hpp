@@ -4,7 +4,10 @@
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/point_cloud.hpp"
+#include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"
+
+#include "support/shapes.hpp"
 
 #include <Eigen/Geometry>
 
@@ -22,6 +25,24 @@ struct PlacedMesh
   TriangleMesh mesh;
   Eigen::Isometry3d T_camera_mesh = Eigen::Isometry3d::Identity();  ///< [m]
 };
+
+/// A wall of 2 x 2 m that faces the camera.
+inline PlacedMesh wall(double z_m)
+{
+  PlacedMesh placed = {squareMesh(1.0F)};
+  placed.T_camera_mesh.translate(Eigen::Vector3d(0, 0, z_m))
+      .rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  return placed;
+}
+
+/// A model with few samples, for tests that vote for nothing.
+inline PpfModel coarselyTrained(const TriangleMesh& mesh,
+                                const SymmetryGroup& symmetries = SymmetryGroup())
+{
+  ModelParameters coarse;
+  coarse.step_rel = 0.2;
+  return PpfModel::train(mesh, symmetries, coarse);
+}
 
 /// A camera of 320 x 240 pixels that sees 0.32 m x 0.24 m at 0.6 m.
 inline PinholeCamera smallCamera()
@@ -88,11 +109,17 @@ inline std::vector<float> renderDepth(const std::vector<PlacedMesh>& scene,
 
 /// What smallCamera() measures of a scene, with normals; all of it in the region.
 /// @param depth_gate_m  See estimateImageNormals().
-inline RangeImage imageOf(const std::vector<PlacedMesh>& scene, float depth_gate_m)
+/// @param noise_m       Standard deviation of the depth.
+inline RangeImage imageOf(const std::vector<PlacedMesh>& scene, float depth_gate_m,
+                          float noise_m = 0, std::uint32_t seed = 1)
 {
   RangeImage image;
   image.camera = smallCamera();
   image.depth = renderDepth(scene, image.camera);
+  std::mt19937 rng(seed);
+  std::normal_distribution<float> noise;
+  for (float& z : image.depth)
+    if (z > 0) z += noise_m * noise(rng);
   image.in_roi.assign(image.depth.size(), 1);
   estimateImageNormals(image, 2, depth_gate_m, 1);
   return image;

@@ -10,15 +10,17 @@
 
 namespace ppf_bin_picking
 {
-/// Why a pose cannot be trusted; kNone if it can. The first gate that it fails decides.
+/// What the first gate that a pose fails says of it.
+struct PoseVerdict
+{
+  UnreliableReason reason = UnreliableReason::kNone;  ///< kNone: it passes all, and can be trusted.
+  std::string detail;                                 ///< One sentence with the figures.
+};
+
+/// Takes a pose through the gates. Without the mismatch test the score's alone are left.
 /// @param pose          All but reliable and reason is read.
 /// @param rivals_known  False if the time limit left a pose beside it unverified; see Ambiguity.
 /// @param share         Its share of its cluster's hypotheses.
-UnreliableReason reasonOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
-                          const PpfModel& model, const DetectorConfig& config);
-
-/// One sentence with the figures that made an unreliable pose's reason.
-/// @param spread  The box of its share of the hypotheses.
-std::string detailOf(const DetectedPose& pose, bool rivals_known, const OrientedBox& spread,
-                     const PpfModel& model, const DetectorConfig& config);
+PoseVerdict verdictOf(const DetectedPose& pose, bool rivals_known, const ClusterShare& share,
+                      const PpfModel& model, const DetectorConfig& config);
 }  // namespace ppf_bin_picking

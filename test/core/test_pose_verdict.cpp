@@ -1,0 +1,110 @@
+#include "ppf_bin_picking/core/pose_verdict.hpp"
+
+#include "support/synthetic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace ppf_bin_picking
+{
+namespace
+{
+class VerdictTest : public ::testing::Test
+{
+protected:
+  VerdictTest()
+  {
+    good_.score = good_.relative_score = good_.visible_fraction = good_.reliability = 1;
+    good_.confirmed_px = 2000;
+  }
+
+  PoseVerdict verdict(const std::function<void(DetectedPose&)>& change) const
+  {
+    DetectedPose pose = good_;
+    change(pose);
+    return verdictOf(pose, true, share_, model_, config_);
+  }
+
+  DetectedPose good_;
+  ClusterShare share_;
+  DetectorConfig config_;
+  const PpfModel model_ = coarselyTrained(boxMesh({0.08F, 0.06F, 0.006F}));
+};
+
+TEST_F(VerdictTest, trustsAPoseThatPassesEveryGate)
+{
+  const PoseVerdict passed = verdict([](DetectedPose&) {});
+  EXPECT_EQ(passed.reason, UnreliableReason::kNone);
+  EXPECT_EQ(passed.detail, "");
+}
+
+TEST_F(VerdictTest, namesTheGateThatAPoseFails)
+{
+  struct Case
+  {
+    std::function<void(DetectedPose&)> change;
+    UnreliableReason reason;
+    std::string word;
+  };
+  const std::vector<Case> cases = {
+      {[](DetectedPose& pose) { pose.slide_share = 0.9; }, UnreliableReason::kSlippage,
+       "max_slide_share"},
+      {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kSlippage,
+       "beyond 80 % of its outline"},
+      {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
+      {[](DetectedPose& pose) { pose.relative_score = 0.3; }, UnreliableReason::kLowScore,
+       "min_relative_score"},
+      {[](DetectedPose& pose) { pose.score = 0.1; }, UnreliableReason::kLowScore, "min_score"},
+      {[](DetectedPose& pose) { pose.visible_fraction = 0.1; }, UnreliableReason::kLowScore,
+       "min_visible_share"},
+      {[](DetectedPose& pose) { pose.confirmed_px = 3; }, UnreliableReason::kLowScore,
+       "min_confirmed_px"},
+      {[](DetectedPose& pose) { pose.reliability = 0.2, pose.claimed = 0.5; },
+       UnreliableReason::kOverlap, "min_reliability"}};
+  for (const Case& one : cases)
+  {
+    SCOPED_TRACE(one.word);
+    const PoseVerdict failed = verdict(one.change);
+    EXPECT_EQ(failed.reason, one.reason);
+    EXPECT_NE(failed.detail.find(one.word), std::string::npos) << failed.detail;
+  }
+}
+
+TEST_F(VerdictTest, namesNoGateThatIsOff)
+{
+  config_.mismatch_test = false;
+  const auto doubtful = [](DetectedPose& pose)
+  {
+    pose.slide_share = pose.outline_broken = 1;
+    pose.margin = pose.relative_score = pose.reliability = 0;
+  };
+  EXPECT_EQ(verdict(doubtful).reason, UnreliableReason::kNone);
+  const PoseVerdict failed = verdict(
+      [&](DetectedPose& pose)
+      {
+        doubtful(pose);
+        pose.score = 0.1;
+      });
+  EXPECT_EQ(failed.reason, UnreliableReason::kLowScore);
+  EXPECT_EQ(failed.detail.find("score 10 % (min_score"), 0U) << failed.detail;
+}
+
+TEST_F(VerdictTest, turnsSpreadHypothesesDownUnlessTheClusteringKnowsNone)
+{
+  share_.box.size = Eigen::Vector3d::Constant(model_.diameter());
+  EXPECT_EQ(verdict([](DetectedPose&) {}).reason, UnreliableReason::kSpread);
+  config_.clustering = Clustering::kGreedy;
+  EXPECT_EQ(verdict([](DetectedPose&) {}).reason, UnreliableReason::kNone);
+}
+
+TEST_F(VerdictTest, trustsNoPoseWithUnknownRivals)
+{
+  const PoseVerdict failed = verdictOf(good_, false, share_, model_, config_);
+  EXPECT_EQ(failed.reason, UnreliableReason::kRunnerUp);
+  EXPECT_NE(failed.detail.find("time_limit_s"), std::string::npos);
+}
+}  // namespace
+}  // namespace ppf_bin_picking
