@@ -18,6 +18,7 @@ PoseHypothesis poseOfMatch(const BoundaryPoint& scene, const BoundaryPoint& mode
   hypothesis.votes = static_cast<float>(votes);
   return hypothesis;
 }
+
 /// Counts the points that entries name.
 void count(const std::uint32_t* first, const std::uint32_t* last, std::uint32_t* votes)
 {

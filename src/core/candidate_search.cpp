@@ -71,12 +71,9 @@ std::vector<PoseGroup> boundaryPoses(const RangeImage& image, const PpfModel& mo
                                      const DetectorConfig& config, const Deadline& deadline,
                                      const std::vector<PoseHypothesis>& distribution)
 {
-  const auto diameter_m = static_cast<float>(model.diameter());
-  const std::vector<BoundaryPoint> boundary =
-      thinOutBoundary(boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
   std::vector<PoseGroup> groups = groupPoses(
       config, model,
-      highVoteHypotheses(matchBoundary(boundary, model, config, deadline), config.min_votes_rel));
+      highVoteHypotheses(boundaryHypotheses(image, model, config, deadline), config.min_votes_rel));
   joinClusters(distribution, static_cast<float>(dbscanRadius(config, model)), groups);
   return groups;
 }
@@ -152,6 +149,16 @@ OrientedPoints sampleScene(const RangeImage& image, float step_m)
         cloud.add(image.point(u, v), image.normals[i]);
     }
   return thinOut(cloud, step_m);
+}
+
+std::vector<PoseHypothesis> boundaryHypotheses(const RangeImage& image, const PpfModel& model,
+                                               const DetectorConfig& config,
+                                               const Deadline& deadline)
+{
+  const auto diameter_m = static_cast<float>(model.diameter());
+  const std::vector<BoundaryPoint> boundary =
+      thinOutBoundary(boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
+  return matchBoundary(boundary, model, config, deadline);
 }
 
 void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint32_t model_index,

@@ -167,6 +167,7 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   lap("selection");
   setStatus(result, cut_short, config.time_limit_s);
 }
+
 /// A whole detection.
 DetectionResult detected(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
                          const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,

@@ -1,6 +1,5 @@
 #include "ppf_bin_picking/core/explanation.hpp"
 
-#include "ppf_bin_picking/core/boundary_matcher.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
@@ -66,33 +65,23 @@ private:
   Place here_;
 };
 
-std::vector<PoseHypothesis> boundaryHypotheses(const RangeImage& image, const PpfModel& model,
-                                               const DetectorConfig& config)
+/// Index of the result's pose nearest to a place, if one is near it; -1: none.
+int nearestRank(const Explaining& at, const DetectionResult& result)
 {
-  const auto diameter_m = static_cast<float>(model.diameter());
-  return matchBoundary(
-      thinOutBoundary(boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m)),
-      model, config, Deadline());
-}
-
-/// Index of a standing candidate's pose in the result; -1: none.
-int rankOf(const Candidate& candidate, const PpfModel& model, const DetectionResult& result)
-{
-  const Explaining at(model, DetectorConfig(), candidate.T_camera_model);
-  int best = -1;
-  double nearest_m = model.diameter();
+  int rank = -1;
+  double nearest_m = 0;
   for (std::size_t i = 0; i < result.poses.size(); ++i)
   {
     const Eigen::Isometry3f pose = result.poses[i].T_cloud_model.cast<float>();
-    if (at.shiftTo(pose) >= nearest_m || !at.isNear(pose)) continue;
+    if (!at.isNear(pose) || (rank >= 0 && at.shiftTo(pose) >= nearest_m)) continue;
+    rank = static_cast<int>(i);
     nearest_m = at.shiftTo(pose);
-    best = static_cast<int>(i);
   }
-  return best;
+  return rank;
 }
 
 /// Finds the standing pose that owns most of the explained one's pixels.
-void findOwner(const RangeImage& image, const PpfModel& model,
+void findOwner(const RangeImage& image, const PpfModel& model, const DetectorConfig& config,
                const std::vector<Candidate>& candidates, const std::vector<SelectedPose>& selected,
                PoseExplanation& explanation)
 {
@@ -111,24 +100,9 @@ void findOwner(const RangeImage& image, const PpfModel& model,
     }
     if (owned <= most) continue;
     most = owned;
-    explanation.owner = rankOf(candidate, model, explanation.result);
+    explanation.owner = nearestRank({model, config, candidate.T_camera_model}, explanation.result);
   }
   explanation.owned_share = most / std::max(1e-9, explanation.evidence.confirmed_weight);
-}
-
-/// The standing pose near the explained one; the nearest of several.
-int nearestRank(const Explaining& at, const DetectionResult& result)
-{
-  int rank = -1;
-  double nearest_m = 0;
-  for (std::size_t i = 0; i < result.poses.size(); ++i)
-  {
-    const Eigen::Isometry3f pose = result.poses[i].T_cloud_model.cast<float>();
-    if (!at.isNear(pose) || (rank >= 0 && at.shiftTo(pose) >= nearest_m)) continue;
-    rank = static_cast<int>(i);
-    nearest_m = at.shiftTo(pose);
-  }
-  return rank;
 }
 
 PoseFate fateOf(const PoseExplanation& explanation)
@@ -154,7 +128,7 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   PoseExplanation explanation;
   explanation.result = std::move(result);
   explanation.surface = at.votesAmong(explanation.result.distribution);
-  explanation.boundary = at.votesAmong(boundaryHypotheses(image, model, config));
+  explanation.boundary = at.votesAmong(boundaryHypotheses(image, model, config, Deadline()));
   explanation.candidates = static_cast<std::size_t>(
       std::count_if(candidates.begin(), candidates.end(),
                     [&](const Candidate& c) { return c.verified && at.isNear(c.T_camera_model); }));
@@ -169,7 +143,7 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   const PoseEvidence after = gatherEvidence(image, model, refined, config);
   explanation.refined_score = poseScore(after, after.confirmed_weight);
   explanation.rank = nearestRank(at, explanation.result);
-  findOwner(image, model, candidates, selected, explanation);
+  findOwner(image, model, config, candidates, selected, explanation);
   explanation.fate = fateOf(explanation);
   return explanation;
 }

@@ -32,6 +32,11 @@ struct Candidate
 /// The measured points of the region with normals, thinned out to a model's sampling step.
 OrientedPoints sampleScene(const RangeImage& image, float step_m);
 
+/// What pairs of boundary points of the image vote for.
+std::vector<PoseHypothesis> boundaryHypotheses(const RangeImage& image, const PpfModel& model,
+                                               const DetectorConfig& config,
+                                               const Deadline& deadline);
+
 /// Votes for one model, clusters the hypotheses and chooses the groups worth a closer look. Appends
 /// the distribution and the clusters to the result, and the candidates, most votes first.
 /// @param lap  Called with the name of each stage at its end.
