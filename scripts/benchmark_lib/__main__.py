@@ -7,14 +7,13 @@ import platform
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from . import cases
 from .closed_loop import run_loops
 from .detection import Bench, write_configs
 from .pictures import draw_curves, draw_scene
-from .programs import BenchmarkError
+from .programs import BenchmarkError, run_to_end
 from .report import write_report
 
 
@@ -184,21 +183,20 @@ def check(options):
     return 1 if found else 0
 
 
+def work(options):
+    """Returns the exit status."""
+    choose(options)
+    if options.check:
+        return check(options)
+    bench, figures = measure(options, options.folder.resolve())
+    (options.folder / "figures.json").write_text(json.dumps(figures, indent=1))
+    report(options, bench, figures)
+    return 0
+
+
 def main():
     options = arguments()
-    start = time.monotonic()
-    try:
-        choose(options)
-        if options.check:
-            return check(options)
-        bench, figures = measure(options, options.folder.resolve())
-        (options.folder / "figures.json").write_text(json.dumps(figures, indent=1))
-        report(options, bench, figures)
-    except BenchmarkError as error:
-        print(f"scripts/benchmark: {error}", file=sys.stderr)
-        return 2
-    print(f"Duration: {time.monotonic() - start:.0f} s")
-    return 0
+    return run_to_end("scripts/benchmark", lambda: work(options))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import functools
 import hashlib
 import re
 import subprocess
+import sys
 import threading
 import time
 
@@ -14,6 +15,18 @@ PROGRAMS = PACKAGE / "build/devel/lib/ppf_bin_picking"
 
 class BenchmarkError(Exception):
     """One sentence for the person who started the benchmark."""
+
+
+def run_to_end(command, body):
+    """Runs body and prints how long it took. Returns the exit status: body's, or 2 after the sentence of its error."""
+    start = time.monotonic()
+    try:
+        status = body()
+    except BenchmarkError as error:
+        print(f"{command}: {error}", file=sys.stderr)
+        return 2
+    print(f"Duration: {time.monotonic() - start:.0f} s")
+    return status
 
 
 def digest(*things):

@@ -3,14 +3,13 @@
 import argparse
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 
 from benchmark_lib.cases import all_parts
 from benchmark_lib.detection import write_configs
-from benchmark_lib.programs import BenchmarkError
+from benchmark_lib.programs import BenchmarkError, run_to_end
 
 from .regression import fit, predict_left_out
 from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
@@ -91,19 +90,18 @@ def report(options, plan, poses):
     print(f"Wrote {options.report}")
 
 
+def work(options):
+    """Returns the exit status."""
+    plan = choose(options)
+    folder = options.folder.resolve()
+    bench = Training(folder, write_configs(folder / "configs", [VARIANT], []))
+    report(options, plan, collect(plan, bench))
+    return 0
+
+
 def main():
     options = arguments()
-    start = time.monotonic()
-    try:
-        plan = choose(options)
-        folder = options.folder.resolve()
-        bench = Training(folder, write_configs(folder / "configs", [VARIANT], []))
-        report(options, plan, collect(plan, bench))
-    except BenchmarkError as error:
-        print(f"scripts/fit_reliability: {error}", file=sys.stderr)
-        return 2
-    print(f"Duration: {time.monotonic() - start:.0f} s")
-    return 0
+    return run_to_end("scripts/fit_reliability", lambda: work(options))
 
 
 if __name__ == "__main__":

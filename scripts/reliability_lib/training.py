@@ -16,12 +16,8 @@ from .terms import terms_of
 SEEDS = (101, 102)  # not the benchmark's
 FILLS = (24, 36)
 SHINY_PRESETS = ("clean", "industrial")  # of low_cost hardly anything would be left
-FOREIGN_SHIFTS = (
-    1,
-    3,
-    5,
-    8,
-)  # places in the list of parts between the part looked for and the one that is there
+# Places in the list of parts between the part looked for and the one that is there.
+FOREIGN_SHIFTS = (1, 3, 5, 8)
 FOREIGN_WEIGHT = 0.2  # a bin rarely holds other parts
 VARIANT = "default"
 # Name of each set of poses with its weight in the fit.
