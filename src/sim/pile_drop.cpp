@@ -70,11 +70,31 @@ bool PartPile::World::liftAbovePile(btTransform& start, const btRigidBody* itsel
   return slow;
 }
 
-bool PartPile::World::isOverFloor(const btRigidBody& body) const
+/// Whether a corner hangs over the rim, lower than it and beyond the wall.
+bool PartPile::World::hangsOverRim(const btRigidBody& body) const
+{
+  const Eigen::Array2d outside_m = bin_.size_m.head<2>().array() / 2 + bin_.wall_m;
+  btVector3 low, high;
+  body.getAabb(low, high);
+  const double reach_x_m = toMetres(std::max(-low.x(), high.x()));
+  const double reach_y_m = toMetres(std::max(-low.y(), high.y()));
+  if (reach_x_m < outside_m.x() && reach_y_m < outside_m.y()) return false;  // most, and cheaply
+  const Eigen::Isometry3d T_bin_body = pose(body);
+  return std::any_of(corners_body_.begin(), corners_body_.end(),
+                     [&](const Eigen::Vector3d& corner_body)
+                     {
+                       const Eigen::Vector3d corner = T_bin_body * corner_body;
+                       return corner.z() < bin_.size_m.z() &&
+                              (corner.head<2>().array().abs() > outside_m).any();
+                     });
+}
+
+bool PartPile::World::isInBin(const btRigidBody& body) const
 {
   const btVector3& center = body.getWorldTransform().getOrigin();
   return std::abs(toMetres(center.x())) < bin_.size_m.x() / 2 &&
-         std::abs(toMetres(center.y())) < bin_.size_m.y() / 2 && center.z() > 0;
+         std::abs(toMetres(center.y())) < bin_.size_m.y() / 2 && center.z() > 0 &&
+         !hangsOverRim(body);
 }
 
 /// Drops the parts again that have left the bin. @return how many.
@@ -83,7 +103,7 @@ std::size_t PartPile::World::dropStrays()
   std::size_t found = 0;
   for (const auto& part : parts_)
   {
-    if (isOverFloor(*part)) continue;
+    if (isInBin(*part)) continue;
     ++found;
     btTransform start = randomStart();
     liftAbovePile(start, part.get());

@@ -199,58 +199,57 @@ void PartPile::World::settle()
     if (time_s >= kMostSettling_s)
       throw std::runtime_error(
           "the parts do not come to rest: give a higher rest speed, or a shorter step");
-    const std::vector<Eigen::Isometry3d> start = poses();
-    std::vector<double> fastest_m_s(parts_.size(), 0);
+    std::vector<Eigen::Isometry3d> start;
+    for (const auto& part : parts_)
+      start.push_back(pose(*part));
+    std::vector<bool> rested(parts_.size(), true);
     for (int i = 0; i < steps && isAwake(); ++i)
     {
       step();
       for (std::size_t k = 0; k < parts_.size(); ++k)
-        fastest_m_s[k] = std::max(fastest_m_s[k], speed_m_s(*parts_[k]));
+        rested[k] = rested[k] && speed_m_s(*parts_[k]) < settings_.rest_speed_m_s;
     }
     strays += dropStrays();
     if (strays > kMostDrops * parts_.size())
       throw std::invalid_argument("the bin overflows: drop fewer parts, or give a larger bin");
-    letSleep(start, fastest_m_s);
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      rested[k] = rested[k] && move_m(start[k], pose(*parts_[k])) < kCreep_m;
+    letSleep(rested);
   }
 }
 
 /// Says which of the parts that are awake want to sleep, as Bullet looks at their speed only. With
 /// the next step it puts those to sleep of which all that they touch want to.
-void PartPile::World::letSleep(const std::vector<Eigen::Isometry3d>& since,
-                               const std::vector<double>& speeds_m_s)
+void PartPile::World::letSleep(const std::vector<bool>& rested)
 {
-  const std::vector<Eigen::Isometry3d> now = poses();
   for (std::size_t k = 0; k < parts_.size(); ++k)
-  {
-    if (!parts_[k]->isActive()) continue;
-    const bool rests =
-        speeds_m_s[k] < settings_.rest_speed_m_s && move_m(since[k], now[k]) < kCreep_m;
-    parts_[k]->setActivationState(rests ? WANTS_DEACTIVATION : ACTIVE_TAG);
-  }
+    if (parts_[k]->isActive())
+      parts_[k]->setActivationState(rested[k] ? WANTS_DEACTIVATION : ACTIVE_TAG);
 }
 
-/// At most, of any of its points.
+/// At most, of any of a part's points. Both are T_bin_body.
 double PartPile::World::move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const
 {
   const Eigen::Isometry3d move = from.inverse() * to;
-  const double turn_rad = Eigen::AngleAxisd(move.linear()).angle();
-  const Eigen::Vector3d center = mass_.T_part_body.translation();
-  return (move * center - center).norm() + turn_rad * reach_m_;
+  return move.translation().norm() + Eigen::AngleAxisd(move.linear()).angle() * reach_m_;
+}
+
+/// @return T_bin_body [m].
+Eigen::Isometry3d PartPile::World::pose(const btRigidBody& body) const
+{
+  const btVector3& origin = body.getWorldTransform().getOrigin();
+  const btQuaternion turn = body.getWorldTransform().getRotation();
+  Eigen::Isometry3d T_bin_body(
+      Eigen::Quaterniond(turn.w(), turn.x(), turn.y(), turn.z()).normalized());
+  T_bin_body.translation() = Eigen::Vector3d(origin.x(), origin.y(), origin.z()) / scale_;
+  return T_bin_body;
 }
 
 std::vector<Eigen::Isometry3d> PartPile::World::poses() const
 {
   std::vector<Eigen::Isometry3d> result;
   for (const auto& part : parts_)
-  {
-    const btTransform& pose = part->getWorldTransform();
-    const btQuaternion turn = pose.getRotation();
-    Eigen::Isometry3d T_bin_body(
-        Eigen::Quaterniond(turn.w(), turn.x(), turn.y(), turn.z()).normalized());
-    T_bin_body.translation() =
-        Eigen::Vector3d(pose.getOrigin().x(), pose.getOrigin().y(), pose.getOrigin().z()) / scale_;
-    result.push_back(T_bin_body * mass_.T_part_body.inverse());
-  }
+    result.push_back(pose(*part) * mass_.T_part_body.inverse());
   return result;
 }
 }  // namespace ppf_bin_picking

@@ -41,12 +41,14 @@ private:
   void addBody(btCollisionShape* shape, const btTransform& pose, bool moves);
   btTransform randomStart();
   bool liftAbovePile(btTransform& start, const btRigidBody* itself);
-  bool isOverFloor(const btRigidBody& body) const;
+  bool hangsOverRim(const btRigidBody& body) const;
+  bool isInBin(const btRigidBody& body) const;
+  Eigen::Isometry3d pose(const btRigidBody& body) const;
   std::size_t dropStrays();
   bool isAwake() const;
   void wakeAround(const btRigidBody& body);
-  void letSleep(const std::vector<Eigen::Isometry3d>& since, const std::vector<double>& speeds_m_s);
   double move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const;
+  void letSleep(const std::vector<bool>& rested);
   double speed_m_s(const btRigidBody& body) const;
   void step();
 

@@ -28,6 +28,7 @@ struct Options
 {
   std::vector<std::string> part_files;
   std::string cache_folder;
+  int first_seed = 1;
   int seeds = 20;
   int count = 40;
 };
@@ -101,7 +102,7 @@ void measurePart(const std::string& part_file, const Options& options)
                                 ? convexHulls(part)
                                 : cachedConvexHulls(part, options.cache_folder);
   Figures figures;
-  for (int seed = 1; seed <= options.seeds; ++seed)
+  for (int seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed)
   {
     try
     {
@@ -144,6 +145,7 @@ int main(int argc, char** argv)
   CLI::App app("Drops parts into a bin and measures what comes of it.");
   app.add_option("parts", options.part_files, "part files")->required();
   app.add_option("--seeds", options.seeds, "piles of each part")->check(CLI::Range(1, 1000));
+  app.add_option("--first-seed", options.first_seed, "of these piles")->check(CLI::Range(0, 1000000));
   app.add_option("--count", options.count, "parts of a pile")->check(CLI::Range(1, 500));
   app.add_option("--cache", options.cache_folder, "folder of the convex hulls");
   CLI11_PARSE(app, argc, argv);

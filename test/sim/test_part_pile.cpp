@@ -119,6 +119,28 @@ TEST(PartPile, wakesWhatAPartFallsOnto)
   EXPECT_GT(furthest, 0.001);
 }
 
+TEST(PartPile, leavesNothingHangingOverTheRim)
+{
+  // Staples start on end and fall over the low walls; some would stay there, astride.
+  const Bin bin{{0.07, 0.06, 0.03}, 0.004};
+  const TriangleMesh part = joined({boxMesh({0.08F, 0.01F, 0.01F}),
+                                    shifted(boxMesh({0.01F, 0.01F, 0.03F}), {0.035F, 0, 0.02F}),
+                                    shifted(boxMesh({0.01F, 0.01F, 0.03F}), {-0.035F, 0, 0.02F})});
+  const ConvexHulls hulls = convexHulls(part);
+  for (std::uint32_t seed = 0; seed < 20; ++seed)
+  {
+    PartPile pile(bin, part, hulls);
+    pile.drop(1, seed);
+    const Eigen::Isometry3d T_bin_part = pile.poses().front();
+    for (const Eigen::Vector3f& vertex : part.vertices)
+    {
+      const Eigen::Vector3d p = T_bin_part * vertex.cast<double>();
+      const double beyond_m = std::max(std::abs(p.x()) - 0.039, std::abs(p.y()) - 0.034);
+      EXPECT_FALSE(beyond_m > 0 && p.z() < 0.03) << "seed " << seed << "\n" << p;
+    }
+  }
+}
+
 TEST(PartPile, laysABoxOnOneOfItsFaces)
 {
   const Eigen::Vector3f size(0.05F, 0.03F, 0.01F);

@@ -32,7 +32,7 @@ struct PhysicsSettings
   /// No point of a part moves faster, as if it were handed down rather than dropped: with the step
   /// it decides how deep parts can get into each other in one step. > 0.
   double max_speed_m_s = 0.5;
-  double rest_speed_m_s = 0.005;  ///< A part rests if none of its points is faster. > 0.
+  double rest_speed_m_s = 0.02;  ///< A part rests if none of its points is faster. > 0.
   double rest_s = 1;              ///< For so long, all parts that touch at once. > 0.
 
   /// One sentence per broken rule; empty means usable.
@@ -57,7 +57,8 @@ public:
 
   /// Drops parts at random attitudes and places from just above what lies there, each when the
   /// parts below it are slow, so that several fall side by side, and lets them come to rest. One
-  /// that leaves the bin (its centre of mass is not over the floor) is dropped again.
+  /// that leaves the bin (its centre of mass is not over the floor, or a corner hangs outside of a
+  /// wall, lower than the rim) is dropped again.
   /// @param count  >= 0.
   /// @throw std::invalid_argument if the part does not fit into the bin or the bin overflows.
   void drop(int count, std::uint32_t seed);
