@@ -10,6 +10,7 @@ namespace
 {
 constexpr double kMostSettling_s = 60;  // simulated
 constexpr double kCreep_m = 0.0001;     // no point of a resting part gets further in rest_s
+constexpr double kLeniency_s = 5;       // in which as much again is let pass, of speed and creep
 constexpr std::size_t kMostDrops = 3;   // of each part, on average, until it settles
 constexpr double kDamping = 0.1;        // share of the speed lost in a second
 constexpr double kStick_m_s = 0.01;     // slower parts stick
@@ -113,10 +114,6 @@ void PartPile::World::addBody(btCollisionShape* shape, const btTransform& pose, 
   // would let through what the solver leaves of the speed, step after step.
   bodies.back()->setCollisionFlags(bodies.back()->getCollisionFlags() |
                                    btCollisionObject::CF_HAS_FRICTION_ANCHOR);
-  // Faster parts do not want to sleep any longer.
-  const double half_m_s = settings_.rest_speed_m_s / 2;
-  bodies.back()->setSleepingThresholds(static_cast<btScalar>(half_m_s * scale_),
-                                       static_cast<btScalar>(half_m_s / reach_m_));
   world_.addRigidBody(bodies.back().get());
 }
 
@@ -188,8 +185,16 @@ void PartPile::World::simulate(double time_s)
     step();
 }
 
+/// Faster parts do not want to sleep any longer.
+void PartPile::World::limitSleep(double speed_m_s)
+{
+  for (const auto& part : parts_)
+    part->setSleepingThresholds(static_cast<btScalar>(speed_m_s / 2 * scale_),
+                                static_cast<btScalar>(speed_m_s / 2 / reach_m_));
+}
+
 /// In windows of rest_s. Parts that touch fall asleep together, after one in which all of them
-/// rested.
+/// rested. The longer that takes, the more passes for rest: in a full bin some part always creeps.
 void PartPile::World::settle()
 {
   const int steps = static_cast<int>(std::ceil(settings_.rest_s / settings_.step_s));
@@ -202,18 +207,21 @@ void PartPile::World::settle()
     std::vector<Eigen::Isometry3d> start;
     for (const auto& part : parts_)
       start.push_back(pose(*part));
+    const double leniency = 1 + time_s / kLeniency_s;
+    const double rest_speed_m_s = settings_.rest_speed_m_s * leniency;
+    limitSleep(rest_speed_m_s);
     std::vector<bool> rested(parts_.size(), true);
     for (int i = 0; i < steps && isAwake(); ++i)
     {
       step();
       for (std::size_t k = 0; k < parts_.size(); ++k)
-        rested[k] = rested[k] && speed_m_s(*parts_[k]) < settings_.rest_speed_m_s;
+        rested[k] = rested[k] && speed_m_s(*parts_[k]) < rest_speed_m_s;
     }
     strays += dropStrays();
     if (strays > kMostDrops * parts_.size())
       throw std::invalid_argument("the bin overflows: drop fewer parts, or give a larger bin");
     for (std::size_t k = 0; k < parts_.size(); ++k)
-      rested[k] = rested[k] && move_m(start[k], pose(*parts_[k])) < kCreep_m;
+      rested[k] = rested[k] && move_m(start[k], pose(*parts_[k])) < kCreep_m * leniency;
     letSleep(rested);
   }
 }

@@ -48,6 +48,7 @@ private:
   bool isAwake() const;
   void wakeAround(const btRigidBody& body);
   double move_m(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const;
+  void limitSleep(double speed_m_s);
   void letSleep(const std::vector<bool>& rested);
   double speed_m_s(const btRigidBody& body) const;
   void step();
