@@ -23,7 +23,6 @@ VARIANTS = {
         "poses_per_cluster": 1,
         "max_slide_share": 1.0,
         "min_margin": -1.0,
-        "min_relative_score": 0,
         "min_reliability": 0,
         "min_score": 0.5,
     },

@@ -56,6 +56,14 @@ TERMS = (
         "kSlippage",
     ),
     Term(
+        "slide_share",
+        float,
+        "of the outline that would stop the worst slide, the broken share",
+        -1,
+        "pose.slide_share",
+        "kSlippage",
+    ),
+    Term(
         "spread",
         lambda spread: min(spread, 2),
         "spread of its cluster in diameters, at most 2",
@@ -74,7 +82,7 @@ TERMS = (
     Term(
         "outline_broken",
         float,
-        "share of the outline in sight where the cloud goes on",
+        "share of its edges in sight where the cloud neither ends nor steps",
         -1,
         "pose.outline_broken",
         "kLowScore",

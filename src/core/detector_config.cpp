@@ -60,7 +60,6 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("min_score", min_score, 0.0, 1.0);
   check.within("max_slide_share", max_slide_share, 0.0, 1.0);
   check.within("min_margin", min_margin, -1.0, 1.0);
-  check.within("min_relative_score", min_relative_score, 0.0, 1.0);
   check.within("min_reliability", min_reliability, 0.0, 1.0);
   check.within("min_visible_share", min_visible_share, 0.0, 1.0);
   check.within("min_confirmed_px", min_confirmed_px, 1, kMany);

@@ -62,8 +62,9 @@ DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, 
   const PoseEvidence& evidence = candidate.evidence;
   const double expected = std::max(1.0, evidence.expected());
   pose.looked_through = evidence.looked_through / expected;
-  pose.outline_broken =
-      evidence.outline_broken / std::max(1.0, evidence.outline_held + evidence.outline_broken);
+  pose.outline_broken = (evidence.outline_broken + evidence.pierced) /
+                        std::max(1.0, evidence.outline_held + evidence.outline_broken +
+                                          evidence.stepped + evidence.pierced);
   pose.claimed = (evidence.confirmed_weight - confirmed) / expected;
   pose.cluster = candidate.cluster;
   return pose;
@@ -113,20 +114,6 @@ std::vector<ClusterShare> sharesOf(const std::vector<const PpfModel*>& models,
     clusters.push_back(candidate.cluster);
   }
   return shareClusters(result.distribution, centers, clusters);
-}
-
-/// The best score of a standing pose, for each model.
-std::vector<double> bestScores(std::size_t models, const std::vector<Candidate>& candidates,
-                               const std::vector<SelectedPose>& selected)
-{
-  std::vector<double> best(models, 0.0);
-  for (const SelectedPose& standing : selected)
-  {
-    const Candidate& candidate = candidates[standing.candidate];
-    best[candidate.model] =
-        std::max(best[candidate.model], poseScore(candidate.evidence, standing.confirmed));
-  }
-  return best;
 }
 
 void sortResult(DetectionResult& result)
@@ -185,7 +172,6 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   const std::vector<Ambiguity> ambiguities =
       assessAmbiguity(models, config, candidates, selected, image.depth.size());
   const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
-  const std::vector<double> best_scores = bestScores(models.size(), candidates, selected);
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
@@ -195,7 +181,6 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     pose.slide_share = ambiguities[i].slide_share;
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
-    pose.relative_score = pose.score / best_scores[pose.model];
     ClusterShare share = shares[i];
     if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
     {  // its outline lets it slide, so the whole of its cluster may be one pose sliding

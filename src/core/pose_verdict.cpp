@@ -9,9 +9,10 @@ namespace ppf_bin_picking
 {
 namespace
 {
-/// Of the outline in sight, the share that may be broken: beyond it, nothing ends where the part
+/// Of the edges in sight, the share that may be broken: beyond it, nothing ends where the part
 /// ends, as for one sunk into a floor.
 constexpr double kMaxOutlineBroken = 0.7;
+constexpr double kFirmHold = 0.07;  // a pose held so firmly may slide by its outline alone
 
 std::string percent(double share)
 {
@@ -34,8 +35,8 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
       return "better poses explain " + percent(pose.claimed) + " of its surface";
     default:
       return "the cloud lies behind " + percent(pose.looked_through) +
-             " of the surface and goes on beyond " + percent(pose.outline_broken) +
-             " of the outline, " + percent(pose.visible_fraction) + " is not hidden, " +
+             " of the surface and goes on at " + percent(pose.outline_broken) + " of the edges, " +
+             percent(pose.visible_fraction) + " is not hidden, " +
              std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }
@@ -50,25 +51,20 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
             "the hypotheses spread over " + percent(spread_m / model.diameter()) +
                 " of the part's diameter, more than max_spread_rel allows (" +
                 percent(config.max_spread_rel) + ")"};
-  if (pose.slide_share > config.max_slide_share)
+  if (pose.slide_share > config.max_slide_share && pose.hold < kFirmHold)
     return {UnreliableReason::kSlippage,
             "the measured surface goes on beyond " + percent(pose.slide_share) +
                 " of the outline that should stop a slide (max_slide_share " +
-                percent(config.max_slide_share) + ")"};
+                percent(config.max_slide_share) + "), and little else does"};
   if (pose.outline_broken > kMaxOutlineBroken)
     return {UnreliableReason::kSlippage,
-            "the measured surface goes on beyond " + percent(pose.outline_broken) +
-                " of its outline, more than the " + percent(kMaxOutlineBroken) + " that may be"};
+            "the measured surface goes on at " + percent(pose.outline_broken) +
+                " of its edges, more than the " + percent(kMaxOutlineBroken) + " that may be"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
             "another pose explains the same points almost as well: it lacks " +
                 percent(pose.margin) + " of the evidence (min_margin " +
                 percent(config.min_margin) + ")"};
-  if (pose.relative_score < config.min_relative_score)
-    return {UnreliableReason::kLowScore,
-            "its score is only " + percent(pose.relative_score) +
-                " of the best one here, so that the sensor is no excuse (min_relative_score " +
-                percent(config.min_relative_score) + ")"};
   return {};
 }
 }  // namespace

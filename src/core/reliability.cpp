@@ -19,21 +19,22 @@ struct Term
 
 // Fitted as scripts/fit_reliability does, before reference points of symmetric parts were thinned
 // out.
-constexpr double kIntercept = -1.735;
+constexpr double kIntercept = -1.453;
 
-std::array<Term, 9> termsOf(const DetectedPose& pose)
+std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.099, 2.417, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.675, 0.452, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.641, -1.144, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.425, 0.192, UnreliableReason::kSpread},
-      {pose.looked_through, -14.271, 0.015, UnreliableReason::kLowScore},
-      {pose.outline_broken, -2.958, 0.213, UnreliableReason::kLowScore},
-      {pose.claimed, -10.731, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.856, 3.288, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.971, 0.757, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.093, 2.518, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 4.831, 0.455, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.748, -1.116, UnreliableReason::kSlippage},
+      {pose.slide_share, -1.809, 0.229, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -1.784, 0.203, UnreliableReason::kSpread},
+      {pose.looked_through, -10.780, 0.016, UnreliableReason::kLowScore},
+      {pose.outline_broken, -2.520, 0.125, UnreliableReason::kLowScore},
+      {pose.claimed, -14.401, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.957, 3.298, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 2.254, 0.751, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace ppf_bin_picking
 {
@@ -16,6 +18,8 @@ constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
+constexpr float kPierceGates =
+    0.5F;  // of the depth gate: a smaller rise from pixel to pixel is no step
 constexpr double kMissingWeight = 0.4;  // of a contradiction
 constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
 
@@ -49,9 +53,11 @@ public:
 
   PoseEvidence run()
   {
+    behind_m_.assign(view_.depth.size(), std::numeric_limits<float>::quiet_NaN());
     for (int row = 0; row < view_.height; ++row)
       for (int column = 0; column < view_.width; ++column)
         if (view_.depthAt(column, row) > 0) comparePixel(column, row);
+    compareHidden();
     compareOutline();
     const auto count = static_cast<float>(evidence_.confirmed.size());
     if (count > 0) evidence_.rms_error_m = std::sqrt(squared_error_ / count);
@@ -82,6 +88,7 @@ private:
     const float behind_m =
         (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
     const Eigen::Vector3f& normal = image_.normals[index];
+    if (z > 0) behind_m_[static_cast<std::size_t>(row) * view_.width + column] = behind_m;
     if (z > 0 && behind_m < -gate_m_)
     {
       evidence_.occluded += weight;
@@ -133,6 +140,35 @@ private:
     return weight * static_cast<float>(distance_px) / static_cast<float>(ring_px_);
   }
 
+  /// Looks at the borders of what something hides: that is a step up from the part's surface,
+  /// unless the measured surface passes through it.
+  void compareHidden()
+  {
+    for (int row = 0; row < view_.height; ++row)
+      for (int column = 0; column < view_.width; ++column)
+      {
+        const float hidden_m = behindAt(column, row);
+        if (!(hidden_m < -gate_m_)) continue;
+        float least_step_m = std::numeric_limits<float>::infinity();
+        for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        {
+          const float beside_m = behindAt(column + dc, row + dr);
+          if (std::abs(beside_m) <= gate_m_)
+            least_step_m = std::min(least_step_m, beside_m - hidden_m);
+        }
+        if (std::isinf(least_step_m)) continue;
+        ++(least_step_m < kPierceGates * gate_m_ ? evidence_.pierced : evidence_.stepped);
+      }
+  }
+
+  /// How far the cloud is behind the part's surface [m]; NaN where one of them is not.
+  float behindAt(int column, int row) const
+  {
+    if (column < 0 || row < 0 || column >= view_.width || row >= view_.height)
+      return std::numeric_limits<float>::quiet_NaN();
+    return behind_m_[static_cast<std::size_t>(row) * view_.width + column];
+  }
+
   /// Follows the measured surface across the outline.
   void compareOutline()
   {
@@ -167,6 +203,7 @@ private:
   float min_normal_cosine_;
   int edge_reach_px_ = 2;
   int ring_px_ = 1;
+  std::vector<float> behind_m_;
   PoseEvidence evidence_;
   float squared_error_ = 0;
 };
@@ -194,7 +231,8 @@ PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
 double poseScore(const PoseEvidence& evidence, double confirmed)
 {
   const double against = evidence.looked_through + evidence.wrong_normal + evidence.outside +
-                         kMissingWeight * evidence.missing + kEdgeWeight * evidence.outline_broken +
+                         kMissingWeight * evidence.missing +
+                         kEdgeWeight * (evidence.outline_broken + evidence.pierced) +
                          evidence.confirmed_weight - confirmed;
   return confirmed > 0 ? confirmed / (confirmed + against) : 0.0;
 }
@@ -204,7 +242,8 @@ double evidenceBalance(const PoseEvidence& evidence, double confirmed)
   const double claimed_by_others = evidence.confirmed_weight - confirmed;
   return confirmed - 3.0 * evidence.looked_through - 3.6 * evidence.wrong_normal -
          0.56 * evidence.missing - 0.3 * evidence.occluded - 1.0 * evidence.outside -
-         claimed_by_others - 10.0 * evidence.outline_broken + 3.0 * evidence.outline_held;
+         claimed_by_others - 10.0 * (evidence.outline_broken + evidence.pierced) +
+         3.0 * evidence.outline_held;
 }
 
 double visibleFraction(const PoseEvidence& evidence)

@@ -64,7 +64,6 @@ json toJson(const DetectedPose& pose)
           {"looked_through", pose.looked_through},
           {"outline_broken", pose.outline_broken},
           {"claimed", pose.claimed},
-          {"relative_score", pose.relative_score},
           {"reliability", pose.reliability},
           {"covariance", numbersOf(pose.covariance)}};
 }
@@ -110,7 +109,6 @@ DetectedPose poseFrom(const json& item)
   pose.looked_through = item.value("looked_through", 0.0);
   pose.outline_broken = item.value("outline_broken", 0.0);
   pose.claimed = item.value("claimed", 0.0);
-  pose.relative_score = item.value("relative_score", 1.0);
   pose.reliability = item.value("reliability", 0.0);
   pose.covariance = covarianceOf(item);
   return pose;

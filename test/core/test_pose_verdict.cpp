@@ -17,7 +17,7 @@ class VerdictTest : public ::testing::Test
 protected:
   VerdictTest()
   {
-    good_.score = good_.relative_score = good_.visible_fraction = good_.reliability = 1;
+    good_.score = good_.visible_fraction = good_.reliability = 1;
     good_.confirmed_px = 2000;
   }
 
@@ -53,10 +53,8 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
       {[](DetectedPose& pose) { pose.slide_share = 0.9; }, UnreliableReason::kSlippage,
        "max_slide_share"},
       {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kSlippage,
-       "beyond 80 % of its outline"},
+       "at 80 % of its edges"},
       {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
-      {[](DetectedPose& pose) { pose.relative_score = 0.3; }, UnreliableReason::kLowScore,
-       "min_relative_score"},
       {[](DetectedPose& pose) { pose.score = 0.1; }, UnreliableReason::kLowScore, "min_score"},
       {[](DetectedPose& pose) { pose.visible_fraction = 0.1; }, UnreliableReason::kLowScore,
        "min_visible_share"},
@@ -73,13 +71,24 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
   }
 }
 
+TEST_F(VerdictTest, trustsAFirmlyHeldPoseWhateverItsOutline)
+{
+  const PoseVerdict passed = verdict(
+      [](DetectedPose& pose)
+      {
+        pose.slide_share = 0.9;
+        pose.hold = 0.1;
+      });
+  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+}
+
 TEST_F(VerdictTest, namesNoGateThatIsOff)
 {
   config_.mismatch_test = false;
   const auto doubtful = [](DetectedPose& pose)
   {
     pose.slide_share = pose.outline_broken = 1;
-    pose.margin = pose.relative_score = pose.reliability = 0;
+    pose.margin = pose.reliability = 0;
   };
   EXPECT_EQ(verdict(doubtful).reason, UnreliableReason::kNone);
   const PoseVerdict failed = verdict(

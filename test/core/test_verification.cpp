@@ -324,9 +324,9 @@ TEST(EvidenceBalance, risesWithWhatSpeaksForThePoseAndFallsWithWhatSpeaksAgainst
   };
   const double before = evidenceBalance(mixedEvidence(), 80);
   EXPECT_GT(balance(&PoseEvidence::outline_held, 1), before);
-  for (const auto field :
-       {&PoseEvidence::looked_through, &PoseEvidence::wrong_normal, &PoseEvidence::missing,
-        &PoseEvidence::occluded, &PoseEvidence::outside, &PoseEvidence::outline_broken})
+  for (const auto field : {&PoseEvidence::looked_through, &PoseEvidence::wrong_normal,
+                           &PoseEvidence::missing, &PoseEvidence::occluded, &PoseEvidence::outside,
+                           &PoseEvidence::outline_broken, &PoseEvidence::pierced})
     EXPECT_LT(balance(field, 1), before);
   // A pixel that a better pose claims is one less for it and one against it.
   EXPECT_DOUBLE_EQ(evidenceBalance(mixedEvidence(), 81) - before, 2);
@@ -354,7 +354,7 @@ TEST(PoseScore, fallsWithContradictionsAloneAndStaysAShare)
   EXPECT_LT(before, 1);
   for (const auto field :
        {&PoseEvidence::looked_through, &PoseEvidence::wrong_normal, &PoseEvidence::missing,
-        &PoseEvidence::outside, &PoseEvidence::outline_broken})
+        &PoseEvidence::outside, &PoseEvidence::outline_broken, &PoseEvidence::pierced})
   {
     PoseEvidence evidence = mixedEvidence();
     evidence.*field += 1;

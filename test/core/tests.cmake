@@ -35,4 +35,5 @@ set(core_tests
     test_symmetry_check
     test_symmetry_search
     test_verification
+    test_verification_hidden
     test_verification_relief)

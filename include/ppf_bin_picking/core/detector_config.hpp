@@ -56,12 +56,11 @@ struct DetectorConfig
   int poses_per_cluster = 0;  ///< Poses of a cluster that are verified; 0: all, 1: as in the paper.
 
   // Mismatching regions
-  bool mismatch_test = true;        ///< Mark poses that spread or slide as unreliable.
-  double max_spread_rel = 1.5;      ///< Largest sum of a cluster's box sides. > 0.
-  double max_slide_share = 0.85;    ///< Largest share of open outline against a slide. [0, 1].
-  double min_margin = 0.1;          ///< Least lead over the best other pose there. [-1, 1].
-  double min_relative_score = 0.6;  ///< Least share of the best score in the scene. [0, 1].
-  double min_reliability = 0.85;    ///< Least probability that a pose is right. [0, 1].
+  bool mismatch_test = true;      ///< Mark poses that spread or slide as unreliable.
+  double max_spread_rel = 1.5;    ///< Largest sum of a cluster's box sides. > 0.
+  double max_slide_share = 0.85;  ///< Largest share of open outline of a loosely held pose. [0, 1].
+  double min_margin = 0.05;       ///< Least lead over the best other pose there. [-1, 1].
+  double min_reliability = 0.85;  ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
@@ -110,7 +109,6 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("max_spread_rel", config.max_spread_rel);
   visit("max_slide_share", config.max_slide_share);
   visit("min_margin", config.min_margin);
-  visit("min_relative_score", config.min_relative_score);
   visit("min_reliability", config.min_reliability);
   visit("max_candidates", config.max_candidates);
   visit("min_sparse_balance", config.min_sparse_balance);

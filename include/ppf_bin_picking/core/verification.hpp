@@ -51,7 +51,9 @@ struct PoseEvidence
   SlideStops slide_held{};            ///< Of outline_held.
   SlideStops slide_broken{};          ///< Of outline_broken, where the surface is absent.
   std::vector<Continuation> goes_on;  ///< The rest of outline_broken.
-  float rms_error_m = 0;              ///< Of the confirmed pixels, along their normals.
+  double stepped = 0;  ///< Hidden pixels beside the part's surface, a step before it.
+  double pierced = 0;  ///< The same without a step: the measured surface passes through the part's.
+  float rms_error_m = 0;  ///< Of the confirmed pixels, along their normals.
 
   /// Share of the pixels not hidden that are confirmed, unweighted. [0, 1]
   double support() const
