@@ -16,6 +16,7 @@ COLUMNS = (
     ("right lost", "lost", 3),
     ("mm", "t_mm", 2),
     ("degrees", "r_deg", 2),
+    ("NEES", "nees", 1),
     ("VSD", "AR_vsd", 3),
     ("MSPD", "AR_mspd", 3),
 )

@@ -17,24 +17,23 @@ struct Term
   UnreliableReason reason;
 };
 
-// Fitted as scripts/fit_reliability does, before reference points of symmetric parts were thinned
-// out.
-constexpr double kIntercept = -1.453;
+// Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
+constexpr double kIntercept = 0.721;
 
 std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.093, 2.518, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 4.831, 0.455, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.748, -1.116, UnreliableReason::kSlippage},
-      {pose.slide_share, -1.809, 0.229, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.784, 0.203, UnreliableReason::kSpread},
-      {pose.looked_through, -10.780, 0.016, UnreliableReason::kLowScore},
-      {pose.outline_broken, -2.520, 0.125, UnreliableReason::kLowScore},
-      {pose.claimed, -14.401, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.957, 3.298, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 2.254, 0.751, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.088, 2.210, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.332, 0.456, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.856, -1.166, UnreliableReason::kSlippage},
+      {pose.slide_share, -1.353, 0.334, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.322, 0.193, UnreliableReason::kSpread},
+      {pose.looked_through, -19.774, 0.013, UnreliableReason::kLowScore},
+      {pose.outline_broken, -0.337, 0.213, UnreliableReason::kLowScore},
+      {pose.claimed, -16.677, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.189, 3.280, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.639, 0.774, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace

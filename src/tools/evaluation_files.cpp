@@ -78,15 +78,22 @@ double numberOf(const json& item, const char* key, const std::string& where)
   return item.at(key).get<double>();
 }
 
+std::vector<double> numbersOf(const json& item, const char* key, std::size_t count,
+                              const std::string& where)
+{
+  const json numbers = item.value(key, json());
+  const auto is_number = [](const json& value) { return value.is_number(); };
+  if (!numbers.is_array() || numbers.size() != count ||
+      !std::all_of(numbers.begin(), numbers.end(), is_number))
+    throw std::invalid_argument("'" + std::string(key) + "' of " + where + " is not " +
+                                std::to_string(count) + " numbers");
+  return numbers.get<std::vector<double>>();
+}
+
 /// A matrix that need not be rigid.
 Eigen::Isometry3d matrixOf(const json& item, const std::string& where)
 {
-  const json numbers = item.value("pose", json());
-  const auto is_number = [](const json& value) { return value.is_number(); };
-  if (!numbers.is_array() || numbers.size() != kPoseNumbers ||
-      !std::all_of(numbers.begin(), numbers.end(), is_number))
-    throw std::invalid_argument("'pose' of " + where + " is not 16 numbers");
-  const auto values = numbers.get<std::vector<double>>();
+  const std::vector<double> values = numbersOf(item, "pose", kPoseNumbers, where);
   Eigen::Isometry3d matrix = Eigen::Isometry3d::Identity();
   matrix.matrix().topRows<3>() =
       Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(values.data());
@@ -101,6 +108,13 @@ TrueObject objectOf(const json& item, const std::string& where)
   return object;
 }
 
+Matrix6d covarianceOf(const json& item, const std::string& where)
+{
+  if (!item.contains("covariance")) return unknownCovariance();
+  const std::vector<double> values = numbersOf(item, "covariance", 36, where);
+  return Eigen::Map<const Matrix6d>(values.data());  // symmetric
+}
+
 ScoredPose poseOf(const json& item, const std::string& where)
 {
   ScoredPose pose;
@@ -109,6 +123,7 @@ ScoredPose poseOf(const json& item, const std::string& where)
   if (!item.contains("reliable") || !item.at("reliable").is_boolean())
     throw std::invalid_argument(where + " does not say true or false for 'reliable'");
   pose.reliable = item.at("reliable").get<bool>();
+  pose.covariance = covarianceOf(item, where);
   return pose;
 }
 }  // namespace

@@ -28,6 +28,7 @@ json toJson(const Summary& s)
           {"lost", s.lost},
           {"t_mm", s.translation_mm},
           {"r_deg", s.rotation_deg},
+          {"nees", s.nees},
           {"right", s.right},
           {"wrong", s.wrong},
           {"ms", s.median_ms},
@@ -54,7 +55,8 @@ json toJson(const JudgedPose& pose)
           {"object", pose.object},
           {"mssd_rel", pose.mssd_rel},
           {"t_mm", pose.translation_m * kMillimetres},
-          {"r_deg", pose.rotation_rad * kDegrees}};
+          {"r_deg", pose.rotation_rad * kDegrees},
+          {"nees", pose.nees}};
 }
 
 json toJson(const JudgedScene& scene)

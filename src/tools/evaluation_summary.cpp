@@ -84,12 +84,14 @@ void addPoses(const std::vector<JudgedPose>& poses, Summary& summary)
   std::vector<JudgedPose> flagged;
   std::vector<double> translations;
   std::vector<double> rotations;
+  std::vector<double> nees;
   for (const JudgedPose& pose : poses)
   {
     (pose.reliable ? reliable : flagged).push_back(pose);
     if (!pose.reliable || pose.verdict != Verdict::kRight) continue;
     translations.push_back(pose.translation_m * kMillimetres);
     rotations.push_back(pose.rotation_rad * kDegrees);
+    if (!std::isnan(pose.nees)) nees.push_back(pose.nees);
   }
   const Counts given(reliable);
   const Counts held(flagged);
@@ -105,6 +107,7 @@ void addPoses(const std::vector<JudgedPose>& poses, Summary& summary)
   summary.lost = share(count(held.right), count(held.right + given.right));
   summary.translation_mm = median(translations);
   summary.rotation_deg = median(rotations);
+  summary.nees = median(nees);
 }
 }  // namespace
 

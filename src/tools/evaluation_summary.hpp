@@ -56,6 +56,7 @@ struct Summary
   double lost = 0;            ///< Of the right poses, how many are unreliable.
   double translation_mm = 0;  ///< Median of the right reliable poses.
   double rotation_deg = 0;    ///< Median of the right reliable poses.
+  double nees = 0;            ///< Median of the right reliable poses with a covariance.
   double median_ms = 0;
   double largest_ms = 0;
   double recall_vsd = 0;   ///< AR_VSD of the reliable poses.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace ppf_bin_picking
@@ -9,6 +10,17 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr double kDeterminantTolerance = 1e-3;
+
+/// The error's square in units of the covariance.
+double neesOf(const ScoredPose& pose, const Eigen::Isometry3d& T_camera_truth)
+{
+  if (pose.covariance(0, 0) < 0) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::AngleAxisd turn(pose.T_camera_model.linear() * T_camera_truth.linear().transpose());
+  Eigen::Matrix<double, 6, 1> error;
+  error << pose.T_camera_model.translation() - T_camera_truth.translation(),
+      turn.angle() * turn.axis();
+  return error.dot(pose.covariance.ldlt().solve(error));
+}
 
 /// Object and errors of a pose.
 JudgedPose nearestObject(const ScoredPose& pose, const std::vector<TrueObject>& objects,
@@ -31,6 +43,7 @@ JudgedPose nearestObject(const ScoredPose& pose, const std::vector<TrueObject>& 
   judged.mssd_rel = nearest.error_m / errors.diameter();
   judged.translation_m = errors.translation(pose.T_camera_model, nearest.T_camera_model);
   judged.rotation_rad = errors.rotation(nearest.T_camera_model, pose.T_camera_model);
+  judged.nees = neesOf(pose, nearest.T_camera_model);
   return judged;
 }
 }  // namespace

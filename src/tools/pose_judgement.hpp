@@ -1,10 +1,12 @@
 /// @file Which of the poses found in one scene are right.
 #pragma once
 
+#include "ppf_bin_picking/core/detection_result.hpp"
 #include "ppf_bin_picking/core/pose_errors.hpp"
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -15,6 +17,7 @@ struct ScoredPose
   Eigen::Isometry3d T_camera_model = Eigen::Isometry3d::Identity();
   double score = 0;
   bool reliable = false;
+  Matrix6d covariance = unknownCovariance();  ///< As DetectedPose has it.
 };
 
 /// An object of the scene.
@@ -54,6 +57,11 @@ struct JudgedPose
   double mssd_rel = PoseErrors::kAnyDistance;  ///< MSSD over the diameter.
   double translation_m = PoseErrors::kAnyDistance;
   double rotation_rad = PoseErrors::kAnyDistance;
+  /// Normalised estimation error squared: the error's square in units of the pose's covariance. NaN
+  /// where that is unknown. Its mean is the number of degrees of freedom where covariances are
+  /// honest (Bar-Shalom, Li and Kirubarajan 2001, Estimation with Applications to Tracking and
+  /// Navigation, section 5.4): 6, for a revolution 5.
+  double nees = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// True for finite numbers whose linear part has the determinant 1 (to 1e-3).

@@ -21,6 +21,7 @@ JudgedPose judged(double score, Verdict verdict, bool reliable = true)
   pose.reliable = reliable;
   pose.translation_m = 0.001 * score;
   pose.rotation_rad = M_PI / 180 * score;
+  pose.nees = score;
   return pose;
 }
 
@@ -105,6 +106,7 @@ TEST(Summary, countsWhatWasFound)
   EXPECT_NEAR(s.lost, 1.0 / 3, 1e-15);
   EXPECT_NEAR(s.translation_mm, 5, 1e-12);  // of 7 and 3
   EXPECT_NEAR(s.rotation_deg, 5, 1e-12);
+  EXPECT_EQ(s.nees, 5);
   EXPECT_EQ(s.median_ms, 20);
   EXPECT_EQ(s.largest_ms, 30);
   EXPECT_NEAR(s.recall_vsd, 0.3, 1e-15);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace ppf_bin_picking
@@ -107,6 +108,19 @@ TEST(Judgement, measuresAgainstTheNearestSymmetry)
   EXPECT_EQ(verdicts(judged), Words{"right"});
   EXPECT_NEAR(judged[0].rotation_rad, 0.01, 1e-9);
   EXPECT_NEAR(judged[0].translation_m, 0, 1e-12);
+}
+
+TEST(Judgement, measuresErrorsInUnitsOfTheCovariance)
+{
+  ScoredPose pose = found(0.002, 1);
+  EXPECT_TRUE(std::isnan(judgePoses({pose}, kObjects, kErrors, {})[0].nees));
+  pose.T_camera_model.rotate(Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY()));
+  pose.covariance = Matrix6d::Identity();
+  pose.covariance(0, 0) = 0.001 * 0.001;
+  pose.covariance(4, 4) = 0.01 * 0.01;
+  EXPECT_NEAR(judgePoses({pose}, kObjects, kErrors, {})[0].nees, 4 + 9, 1e-6);
+  pose.T_camera_model.rotate(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ()));  // looks the same
+  EXPECT_NEAR(judgePoses({pose}, kObjects, kErrors, {})[0].nees, 4 + 9, 1e-6);
 }
 
 TEST(Judgement, callsAMatrixThatIsNotRigidWrong)
