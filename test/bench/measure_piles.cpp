@@ -145,7 +145,8 @@ int main(int argc, char** argv)
   CLI::App app("Drops parts into a bin and measures what comes of it.");
   app.add_option("parts", options.part_files, "part files")->required();
   app.add_option("--seeds", options.seeds, "piles of each part")->check(CLI::Range(1, 1000));
-  app.add_option("--first-seed", options.first_seed, "of these piles")->check(CLI::Range(0, 1000000));
+  app.add_option("--first-seed", options.first_seed, "of these piles")
+      ->check(CLI::Range(0, 1000000));
   app.add_option("--count", options.count, "parts of a pile")->check(CLI::Range(1, 500));
   app.add_option("--cache", options.cache_folder, "folder of the convex hulls");
   CLI11_PARSE(app, argc, argv);

@@ -33,7 +33,7 @@ struct PhysicsSettings
   /// it decides how deep parts can get into each other in one step. > 0.
   double max_speed_m_s = 0.5;
   double rest_speed_m_s = 0.02;  ///< A part rests if none of its points is faster. > 0.
-  double rest_s = 1;              ///< For so long, all parts that touch at once. > 0.
+  double rest_s = 1;             ///< For so long, all parts that touch at once. > 0.
 
   /// One sentence per broken rule; empty means usable.
   std::vector<std::string> problems() const;
