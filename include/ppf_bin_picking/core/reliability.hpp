@@ -14,11 +14,11 @@ struct Reliability
 };
 
 /// Logistic regression (Cox 1958) over what verification and the ambiguity tests found: score,
-/// margin, hold, spread, the shares looked through and claimed by better poses, the open outline,
-/// visible share and confirmed pixels.
+/// margin, hold, slide share, spread, the shares looked through and claimed by better poses, broken
+/// edges, visible share and confirmed pixels.
 ///
 /// Fitted on simulated scenes of the package's own parts, foreign objects and shiny surfaces among
-/// them; docs/decisions.md tells what it keeps of parts that it was not fitted on.
+/// them; docs/reliability.md tells what it keeps of parts that it was not fitted on.
 /// Scores and shares are in [0, 1].
 /// @param pose  All fields but reliability, reliable and reason are read.
 Reliability assessReliability(const DetectedPose& pose);
