@@ -40,6 +40,7 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
              std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }
+
 /// The gates of the mismatch test before those of the score.
 PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share,
                              const PpfModel& model, const DetectorConfig& config)

@@ -18,8 +18,7 @@ constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
-constexpr float kPierceGates =
-    0.5F;  // of the depth gate: a smaller rise from pixel to pixel is no step
+constexpr float kPierceGates = 0.5F;    // ... and smaller rises towards the camera are no step
 constexpr double kMissingWeight = 0.4;  // of a contradiction
 constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
 

@@ -18,9 +18,25 @@ std::string temporaryFor(const std::string& path)
   return path + ".part" + std::to_string(getpid());
 }
 
+/// Links stay where what they name is written.
+std::string behindLinks(const std::string& path)
+{
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target.string();
+}
+
+/// A device or a pipe, which another file must not replace.
+bool isDevice(const std::string& path)
+{
+  std::error_code ignored;
+  return fs::is_other(fs::status(path, ignored));
+}
+
 [[noreturn]] void refuse(const std::string& path)
 {
-  throw InputError(path + " cannot be written: check that its folder exists and has room");
+  throw InputError((path.empty() ? "a file without a name" : path) +
+                   " cannot be written: check that its folder exists and has room");
 }
 }  // namespace
 
@@ -42,24 +58,30 @@ std::string readFile(const std::string& path, std::size_t max_bytes)
 
 void requireWritable(const std::string& path)
 {
-  const std::string temporary = temporaryFor(path);
-  const bool writable = std::ofstream(temporary, std::ios::binary).is_open();
   std::error_code ignored;
+  if (isDevice(path))
+  {
+    if (!std::ofstream(path, std::ios::binary | std::ios::app)) refuse(path);
+    return;
+  }
+  const std::string temporary = temporaryFor(behindLinks(path));
+  const bool writable = std::ofstream(temporary, std::ios::binary).is_open();
   fs::remove(temporary, ignored);
-  if (!writable || fs::is_directory(path, ignored)) refuse(path);
+  if (path.empty() || !writable || fs::is_directory(path, ignored)) refuse(path);
 }
 
 void writeFile(const std::string& path, const std::string& bytes)
 {
-  const std::string temporary = temporaryFor(path);
-  std::ofstream stream(temporary, std::ios::binary);
+  const bool device = isDevice(path);
+  const std::string target = behindLinks(path);
+  const std::string written = device ? target : temporaryFor(target);
+  std::ofstream stream(written, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
   std::error_code error;
-  if (stream) fs::rename(temporary, path, error);
+  if (stream && !device) fs::rename(written, target, error);
   if (stream && !error) return;
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
+  if (!device) fs::remove(written, error);
   refuse(path);
 }
 }  // namespace ppf_bin_picking

@@ -47,7 +47,8 @@ std::string evidenceText(const PoseEvidence& evidence)
        << "missing:      " << percent(evidence.missing / all) << "; outside the region "
        << percent(evidence.outside / all) << "\n"
        << "outline:      " << evidence.outline_held << " pixels held, " << evidence.outline_broken
-       << " broken\n";
+       << " broken; where something hides it " << evidence.stepped << " a step, "
+       << evidence.pierced << " passed through\n";
   return text.str();
 }
 

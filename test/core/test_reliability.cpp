@@ -50,6 +50,7 @@ TEST(Reliability, fallsWithAllThatSpeaksAgainstAPose)
   EXPECT_LT(changed([](DetectedPose& pose) { pose.score = 0.5; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.margin = 0.1; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.hold = 0.005; }), ordinary);
+  EXPECT_LT(changed([](DetectedPose& pose) { pose.slide_share = 0.9; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.spread = 1.4; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.looked_through = 0.2; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.outline_broken = 0.6; }), ordinary);

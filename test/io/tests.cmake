@@ -4,6 +4,7 @@ set(io_tests
     test_cloud_io
     test_config_io
     test_depth_io
+    test_file_bytes
     test_key_check
     test_mesh_io
     test_model_io

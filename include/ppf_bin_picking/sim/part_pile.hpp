@@ -69,9 +69,9 @@ public:
   void remove(std::size_t index);
 
   /// Simulates until every part sleeps. Parts that touch fall asleep together, after the settings'
-  /// rest_s without a fast one and without one that got 0.1 mm further; they wake together, when
-  /// one that is awake touches them. Where all sleep, nothing changes, not a bit. One that leaves
-  /// the bin is dropped again.
+  /// rest_s without a fast one and without one that got 0.1 mm further, both as much again for each
+  /// 5 s that it takes; they wake together, when one that is awake touches them. Where all sleep,
+  /// nothing changes, not a bit. One that leaves the bin is dropped again.
   /// @throw std::invalid_argument if the bin overflows. @throw std::runtime_error if it takes more
   ///        than a minute of simulated time.
   void settle();
