@@ -60,6 +60,10 @@ std::string cloudProblem(const PointCloud& cloud, const DetectorConfig& config)
          << " points: give one for each or none";
   else if (config.use_cloud_normals && cloud.normals.empty())
     text << "the cloud has no normals but use_cloud_normals is set: unset it or send normals";
+  else if (std::none_of(cloud.points.begin(), cloud.points.end(), measured))
+    text << "none of the cloud's " << cloud.size() << " points is measured (all are NaN, infinite, "
+         << "zero, or not before the camera): check the camera's view and exposure, and that z "
+         << "points forward";
   return text.str();
 }
 
@@ -146,9 +150,9 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   if (prepared.roi_points == 0)
   {
     result.status = DetectionStatus::kRoiEmpty;
-    result.message = roi ? "no measured point in the region of interest: the bin is empty, or the "
-                           "region is misplaced"
-                         : "no measured point in front of the camera: check its view and exposure";
+    result.message =
+        "no measured point in the region of interest: the bin is empty, or the "
+        "region is misplaced";
     return;
   }
   result.message = imageProblem(prepared, models);

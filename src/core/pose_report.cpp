@@ -38,6 +38,7 @@ MismatchingRegion regionOf(const DetectedPose& pose, const PoseVerdict& verdict,
                                                            : boxOfPart(model, pose.T_cloud_model);
   region.T_cloud_best = pose.T_cloud_model;
   region.score = pose.score;
+  region.reliability = pose.reliability;
   region.hypotheses = share.hypotheses;
   region.detail = verdict.detail;
   return region;

@@ -9,11 +9,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-/// Of the edges in sight, the share that may be broken: beyond it, nothing ends where the part
-/// ends, as for one sunk into a floor.
-constexpr double kMaxOutlineBroken = 0.7;
-constexpr double kFirmHold = 0.07;  // a pose held so firmly may slide by its outline alone
-
 std::string percent(double share)
 {
   return std::to_string(std::lround(100 * share)) + " %";
@@ -52,15 +47,16 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
             "the hypotheses spread over " + percent(spread_m / model.diameter()) +
                 " of the part's diameter, more than max_spread_rel allows (" +
                 percent(config.max_spread_rel) + ")"};
-  if (pose.slide_share > config.max_slide_share && pose.hold < kFirmHold)
+  if (pose.slide_share > config.max_slide_share && pose.hold < config.firm_hold)
     return {UnreliableReason::kSlippage,
             "the measured surface goes on beyond " + percent(pose.slide_share) +
                 " of the outline that should stop a slide (max_slide_share " +
                 percent(config.max_slide_share) + "), and little else does"};
-  if (pose.outline_broken > kMaxOutlineBroken)
-    return {UnreliableReason::kSlippage,
+  if (pose.outline_broken > config.max_outline_broken)
+    return {UnreliableReason::kLowScore,
             "the measured surface goes on at " + percent(pose.outline_broken) +
-                " of its edges, more than the " + percent(kMaxOutlineBroken) + " that may be"};
+                " of its edges (max_outline_broken " + percent(config.max_outline_broken) +
+                "), so that nothing ends where the part ends"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
             "another pose explains the same points almost as well: it lacks " +

@@ -3,8 +3,6 @@
 
 #include "ppf_bin_picking/core/range_image.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -15,13 +13,6 @@ constexpr float kNormalGateRel =
     0.05F;  ///< Reach of a normal's neighbourhood, of the smallest diameter.
 constexpr float kSameSurfaceRel =
     0.02F;  ///< Depths this near belong to one surface, of the smallest diameter.
-
-/// True for a finite point that a camera can have seen: at least 1 mm in front of it, and not
-/// sideways of it (87 degrees off the line of sight).
-inline bool measured(const Eigen::Vector3f& p)
-{
-  return p.allFinite() && p.z() > 1e-3F && std::max(std::abs(p.x()), std::abs(p.y())) < 20 * p.z();
-}
 
 /// The value that a share of the values are below. @param values  Not empty; gets another order.
 float percentile(std::vector<float>& values, double share);

@@ -15,10 +15,10 @@ void requireAtMost(std::size_t max_points, std::size_t points, const std::string
 
 void requireMeasurement(const PointCloud& cloud, const std::string& path)
 {
-  const bool measured = std::any_of(cloud.points.begin(), cloud.points.end(),
-                                    [](const Eigen::Vector3f& p) { return p.allFinite(); });
-  if (!measured)
-    throw InputError(path + " holds no measured point (" + std::to_string(cloud.size()) +
-                     " in all): check the camera, and that it is the file you mean");
+  if (std::none_of(cloud.points.begin(), cloud.points.end(), measured))
+    throw InputError(path + " holds no measured point in front of the camera (" +
+                     std::to_string(cloud.size()) +
+                     " in all): check the camera, that z points forward, and that it is the file "
+                     "you mean");
 }
 }  // namespace ppf_bin_picking

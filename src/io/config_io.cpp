@@ -4,12 +4,15 @@
 #include "ppf_bin_picking/io/rigid_pose.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
+#include <cmath>
 #include <type_traits>
 
 namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kMaxRegion_m = 50.0;  // no cell is larger: its numbers are millimetres
+
 void readField(const YamlMap& map, const char* key, double& field)
 {
   field = map.number(key);
@@ -120,6 +123,11 @@ FramedRegion readRegion(const YAML::Node& node, const std::string& where)
     throw InputError(where +
                      ": min is not below max: give two opposite corners [m], each of the "
                      "three numbers of min less than that of max");
+  if (!(framed.region.diagonal() <= kMaxRegion_m))
+    throw InputError(where + ": the box measures " +
+                     std::to_string(std::lround(framed.region.diagonal())) +
+                     " m across, more than " + std::to_string(std::lround(kMaxRegion_m)) +
+                     " m: give its corners in metres");
   if (map.has("pose")) framed.region.T_cloud_box = readPose(map, "pose");
   if (map.has("frame")) framed.frame = map.text("frame");
   return framed;

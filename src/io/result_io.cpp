@@ -76,6 +76,7 @@ json toJson(const MismatchingRegion& region)
           {"best_pose", rowMajor(region.T_cloud_best)},
           {"reason", toString(region.reason)},
           {"score", region.score},
+          {"reliability", region.reliability},
           {"hypotheses", region.hypotheses},
           {"detail", region.detail}};
 }
@@ -124,6 +125,7 @@ MismatchingRegion regionFrom(const json& item)
   region.T_cloud_best = poseOf(item, "best_pose");
   region.reason = fromWord(kReasons, item.at("reason").get<std::string>());
   region.score = item.at("score").get<double>();
+  region.reliability = item.value("reliability", 0.0);
   region.hypotheses = item.at("hypotheses").get<std::size_t>();
   region.detail = item.value("detail", std::string());
   return region;
@@ -162,6 +164,7 @@ ResultFile fileFrom(const json& root)
 {
   ResultFile file;
   file.frame_id = root.at("frame_id").get<std::string>();
+  file.model_id = root.value("model_id", std::string());
   file.train_seconds = root.at("train_ms").get<double>() / kMilliseconds;
   DetectionResult& result = file.result;
   result.status = fromWord(kStatuses, root.at("status").get<std::string>());
@@ -200,6 +203,7 @@ std::string toJson(const ResultFile& file)
 {
   const DetectionResult& result = file.result;
   json root = {{"frame_id", file.frame_id},
+               {"model_id", file.model_id},
                {"status", toString(result.status)},
                {"message", result.message},
                {"time_ms", result.seconds * kMilliseconds},

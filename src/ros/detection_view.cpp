@@ -19,6 +19,7 @@ msg::PickablePose toMessage(const DetectionView& view, const ppf_bin_picking::De
   message.pose = toPoseWithCovariance(view.T_target_cloud, pose.T_cloud_model, pose.covariance);
   for (const Eigen::Isometry3d& T_model_pick : part.T_model_picks)
     message.picks.push_back(tf2::toMsg(T_target_model * T_model_pick));
+  message.reliability = static_cast<float>(pose.reliability);
   message.score = static_cast<float>(pose.score);
   message.votes = static_cast<float>(pose.votes);
   message.visible_fraction = static_cast<float>(pose.visible_fraction);
@@ -38,6 +39,7 @@ msg::MismatchRegion toMessage(const DetectionView& view,
   message.pose = tf2::toMsg(view.T_target_cloud * region.box.T_cloud_box);
   tf2::toMsg(region.box.size, message.size);
   message.best_pose = tf2::toMsg(view.T_target_cloud * region.T_cloud_best);
+  message.reliability = static_cast<float>(region.reliability);
   message.score = static_cast<float>(region.score);
   message.hypotheses = static_cast<std::uint32_t>(region.hypotheses);
   message.detail = region.detail;

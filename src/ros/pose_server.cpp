@@ -52,6 +52,10 @@ PoseServer::PoseServer(const ros::NodeHandle& nh, const ros::NodeHandle& private
       service_threads_(kServiceThreads, &service_queue_)
 {
   cloud_subscriber_ = private_nh_.subscribe("input", kCloudQueue, &PoseServer::onCloud, this);
+  if (!params_.region_of_interest)
+    ROS_WARN_STREAM(private_nh_.getNamespace()
+                    << ": no region_of_interest is given, so that the bin's walls and all around "
+                       "it are searched, too: give the inside of the bin");
   setUpDiagnostics();
   advertiseService();
   service_threads_.start();

@@ -110,15 +110,7 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
     config.use_cloud_normals |= part->config.use_cloud_normals;
   const std::string problem = messageProblem(cloud, config);
   if (!problem.empty()) throw RequestFailed(Response::BAD_CLOUD, problem);
-  ppf_bin_picking::PointCloud points = toPointCloud(cloud, config);
-  if (points.size() > 0 &&
-      std::none_of(points.points.begin(), points.points.end(),
-                   [](const Eigen::Vector3f& point) { return point.allFinite(); }))
-    throw RequestFailed(Response::BAD_CLOUD,
-                        "None of the cloud's " + std::to_string(points.size()) +
-                            " points is measured (all are NaN or infinite): check the camera's "
-                            "view and exposure");
-  return points;
+  return toPointCloud(cloud, config);
 }
 
 DetectionResult detectParts(const ppf_bin_picking::PointCloud& cloud_camera,

@@ -75,9 +75,14 @@ void writePicture(const std::string& path, const RangeImage& image, const PpfMod
 void checkPoses(const Options& options)
 {
   if (!options.image.empty()) requireWritable(options.image);
+  requireNoInput(options.image, {options.result});
   const ResultFile file = loadResult(options.result);
-  const ToolPart part = options.part.load();
-  const Scene scene = options.scene.load(static_cast<std::size_t>(part.config.max_points));
+  const ToolPart part = options.part.load(options.image);
+  if (!file.model_id.empty() && file.model_id != part.description.model_id)
+    throw InputError(options.result + " holds poses of the part '" + file.model_id + "', not of '" +
+                     part.description.model_id + "': give its part file");
+  const Scene scene =
+      options.scene.load(static_cast<std::size_t>(part.config.max_points), options.image);
   const PpfModel model = trainedModel(part);
   const RangeImage image =
       makeRangeImage(

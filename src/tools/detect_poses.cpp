@@ -86,12 +86,15 @@ void detectPoses(const Options& options)
   std::optional<Eigen::Isometry3d> explained;
   if (options.has_explain) explained = poseFromText(options.explain);
   requireWritable(options.output);
-  ToolPart part = options.part.load();
+  ToolPart part = options.part.load(options.output);
   if (options.threads >= 0) part.config.threads = options.threads;
   const Detector detector(part.config);
-  const Scene scene = options.scene.load(static_cast<std::size_t>(part.config.max_points));
+  const Scene scene =
+      options.scene.load(static_cast<std::size_t>(part.config.max_points), options.output);
+  requireNoInput(options.output, {options.model});
   ResultFile file;
   file.frame_id = scene.frame_id;
+  file.model_id = part.description.model_id;
   const PpfModel model = modelFor(part, options, file.train_seconds);
   PoseExplanation explanation;
   std::vector<double> seconds;
@@ -108,6 +111,10 @@ void detectPoses(const Options& options)
   }
   if (file.result.status == DetectionStatus::kBadCloud) throw InputError(file.result.message);
   writeFile(options.output, toJson(file));
+  if (!scene.roi)
+    report(
+        "warning: no region of interest is given, so that the bin's walls and all around it "
+        "were searched, too: give the inside of the bin by --roi");
   reportTimes(file.result);
   if (options.repeat > 1) reportDistribution(seconds);
   report(file.result.message);

@@ -7,6 +7,7 @@
 #include "ppf_bin_picking/io/mesh_io.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -51,6 +52,16 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& t
   }
 }
 
+void requireNoInput(const std::string& output, const std::vector<std::string>& inputs)
+{
+  for (const std::string& input : inputs)
+  {
+    std::error_code none;  // of files that do not exist
+    if (std::filesystem::equivalent(output, input, none))
+      throw InputError(output + " is both an input and the output: give the output another name");
+  }
+}
+
 void report(const std::string& line)
 {
   std::cerr << line << "\n";
@@ -62,10 +73,11 @@ void PartOptions::add(CLI::App& app)
   app.add_option("--config", config, "Settings; what it leaves out has its default");
 }
 
-ToolPart PartOptions::load() const
+ToolPart PartOptions::load(const std::string& output) const
 {
   ToolPart loaded;
   loaded.description = loadPart(part);
+  requireNoInput(output, {part, config, loaded.description.mesh_file});
   loaded.config =
       loaded.description.adapted(config.empty() ? DetectorConfig() : loadDetectorConfig(config));
   LoadedMesh mesh = loadMesh(loaded.description.mesh_file, loaded.description.unit);
@@ -102,8 +114,9 @@ void SceneOptions::add(CLI::App& app)
   app.add_option("--roi", roi, "Region of interest, .yaml; without it everywhere");
 }
 
-Scene SceneOptions::load(std::size_t max_points) const
+Scene SceneOptions::load(std::size_t max_points, const std::string& output) const
 {
+  requireNoInput(output, {cloud, depth, camera, roi});
   Scene scene;
   if (!roi.empty()) scene.roi = loadRegion(roi);
   if (!depth.empty())

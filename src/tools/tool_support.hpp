@@ -14,12 +14,17 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ppf_bin_picking
 {
 /// Parses the arguments and runs a tool. Bad arguments and bad input give one sentence on stderr.
 /// @return The exit status: 0 done, 2 bad arguments or input, 1 a defect of ours.
 int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& tool);
+
+/// @throw InputError if a file to be written is one of those that are read. Names of files that do
+/// not exist, and empty ones, are equal to none.
+void requireNoInput(const std::string& output, const std::vector<std::string>& inputs);
 
 /// One line of progress on stderr.
 void report(const std::string& line);
@@ -38,7 +43,8 @@ struct PartOptions
 {
   void add(CLI::App& app);
   /// Loads part and mesh; warnings go to stderr.
-  ToolPart load() const;
+  /// @param output  A file to be written. @throw InputError if it is one of those read here.
+  ToolPart load(const std::string& output) const;
 
   std::string part;
   std::string config;
@@ -61,7 +67,8 @@ struct SceneOptions
 {
   void add(CLI::App& app);
   /// @param max_points  More are refused.
-  Scene load(std::size_t max_points) const;
+  /// @param output      A file to be written. @throw InputError if it is one of those read here.
+  Scene load(std::size_t max_points, const std::string& output) const;
 
   std::string cloud;
   std::string cloud_unit = "m";

@@ -16,7 +16,7 @@ int main(int argc, char** argv)
                  [&]
                  {
                    requireWritable(output);
-                   const ToolPart part = part_options.load();
+                   const ToolPart part = part_options.load(output);
                    saveModel(output, trainedModel(part), part.mesh_checksum);
                    report("wrote " + output);
                  });

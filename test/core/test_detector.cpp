@@ -204,17 +204,22 @@ TEST_F(DetectorTest, saysThatTheRegionIsEmpty)
   EXPECT_FALSE(result.message.empty());
 }
 
-TEST_F(DetectorTest, findsNothingInACloudWithoutMeasurements)
+TEST_F(DetectorTest, refusesACloudWithoutMeasurements)
 {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   PointCloud nothing = cloud();
-  nothing.points.assign(nothing.points.size(), {kNan, kNan, kNan});
-  for (const bool with_roi : {false, true})
+  for (const Eigen::Vector3f& point : {Eigen::Vector3f(kNan, kNan, kNan), Eigen::Vector3f(0, 0, 0),
+                                       Eigen::Vector3f(0.1F, 0.1F, -1)})
   {
-    const auto roi = with_roi ? std::optional<RegionOfInterest>(roi_) : std::nullopt;
-    const DetectionResult result = Detector(coarseConfig()).detect(nothing, bracket_, roi);
-    EXPECT_EQ(result.status, DetectionStatus::kRoiEmpty);
-    EXPECT_TRUE(result.poses.empty());
+    nothing.points.assign(nothing.points.size(), point);
+    for (const bool with_roi : {false, true})
+    {
+      const auto roi = with_roi ? std::optional<RegionOfInterest>(roi_) : std::nullopt;
+      const DetectionResult result = Detector(coarseConfig()).detect(nothing, bracket_, roi);
+      EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
+      EXPECT_NE(result.message.find("check the camera"), std::string::npos) << result.message;
+      EXPECT_TRUE(result.poses.empty());
+    }
   }
 }
 

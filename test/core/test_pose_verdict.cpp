@@ -52,8 +52,8 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
   const std::vector<Case> cases = {
       {[](DetectedPose& pose) { pose.slide_share = 0.9; }, UnreliableReason::kSlippage,
        "max_slide_share"},
-      {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kSlippage,
-       "at 80 % of its edges"},
+      {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kLowScore,
+       "max_outline_broken"},
       {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
       {[](DetectedPose& pose) { pose.score = 0.1; }, UnreliableReason::kLowScore, "min_score"},
       {[](DetectedPose& pose) { pose.visible_fraction = 0.1; }, UnreliableReason::kLowScore,
@@ -73,12 +73,21 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
 
 TEST_F(VerdictTest, trustsAFirmlyHeldPoseWhateverItsOutline)
 {
-  const PoseVerdict passed = verdict(
-      [](DetectedPose& pose)
-      {
-        pose.slide_share = 0.9;
-        pose.hold = 0.1;
-      });
+  const auto held_by_surfaces = [](DetectedPose& pose)
+  {
+    pose.slide_share = 0.9;
+    pose.hold = 0.1;
+  };
+  const PoseVerdict passed = verdict(held_by_surfaces);
+  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  config_.firm_hold = 0.2;
+  EXPECT_EQ(verdict(held_by_surfaces).reason, UnreliableReason::kSlippage);
+}
+
+TEST_F(VerdictTest, toleratesAsManyBrokenEdgesAsItIsTold)
+{
+  config_.max_outline_broken = 0.9;
+  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.outline_broken = 0.8; });
   EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
 }
 

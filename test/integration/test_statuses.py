@@ -218,6 +218,14 @@ def set_nothing_measured(message):
     message.data = np.full(len(message.data) // 4, np.nan, "<f4").tobytes()
 
 
+def set_all_zero(message):
+    message.data = bytes(len(message.data))
+
+
+def set_behind_the_camera(message):
+    message.data = (-np.frombuffer(message.data, "<f4")).tobytes()
+
+
 def set_empty(message):
     message.width, message.height, message.row_step, message.data = 0, 0, 0, b""
 
@@ -230,6 +238,8 @@ def set_too_large(message):
 BAD_CLOUDS = [
     ("empty", set_empty, ["no points", "check that the camera"]),
     ("nothing measured", set_nothing_measured, ["NaN", "check the camera"]),
+    ("all zero", set_all_zero, ["zero", "check the camera"]),
+    ("behind the camera", set_behind_the_camera, ["not before the camera", "z points forward"]),
     ("no x", lambda m: m.fields.pop(0), ["field x is missing"]),
     ("no fields", lambda m: m.fields.clear(), ["field x is missing"]),
     ("doubles", lambda m: setattr(m.fields[2], "datatype", PointField.FLOAT64), ["z", "FLOAT32"]),

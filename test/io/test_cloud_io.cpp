@@ -120,7 +120,10 @@ TEST_F(CloudFile, isRefusedWithoutMeasuredPoints)
   const std::string nan = "nan nan nan\n";
   expectHolds(errorOf("a.pcd", std::string(kHead) + "WIDTH 2\nHEIGHT 1\n" + kView +
                                    "POINTS 2\nDATA ascii\n" + nan + nan),
-              "holds no measured point (2 in all)");
+              "holds no measured point in front of the camera (2 in all)");
+  expectHolds(errorOf("a.pcd", std::string(kHead) + "WIDTH 2\nHEIGHT 1\n" + kView +
+                                   "POINTS 2\nDATA ascii\n0 0 0\n0 0 -1\n"),
+              "holds no measured point in front of the camera (2 in all)");
   expectHolds(errorOf("a.pcd", std::string(kHead) + "WIDTH 0\nHEIGHT 1\n" + kView +
                                    "POINTS 0\nDATA ascii\n"),
               "a.pcd ");

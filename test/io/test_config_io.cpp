@@ -132,6 +132,8 @@ TEST(Region, isRefusedUnlessItHasAnInside)
   expectHolds(regionError("{min: [0, 0, 0], max: [1, 0, 1]}"), "min is not below max");
   expectHolds(regionError("{min: [0, 0, 0]}"), "max is missing");
   expectHolds(regionError("{min: [0, 0], max: [1, 1, 1]}"), "min is a list of 2");
+  expectHolds(regionError("{min: [0, 0, 600], max: [300, 400, 600.5]}"),
+              "measures 500 m across, more than 50 m: give its corners in metres");
   expectHolds(regionError("{min: [0, 0, 0], max: [1, 1, 1], pos: []}"),
               "nearest known name is 'pose'");
 }

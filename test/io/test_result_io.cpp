@@ -17,6 +17,7 @@ ResultFile example()
   file.frame_id = "camera_optical";
   file.train_seconds = 0.25;
   DetectionResult& result = file.result;
+  file.model_id = "bracket";
   result.status = DetectionStatus::kOk;
   result.message = "1 reliable poses";
   result.roi_points = 4711;
@@ -39,6 +40,7 @@ ResultFile example()
   region.box.T_cloud_box = pose.T_cloud_model;
   region.box.size = {0.3, 0.2, 0.1};
   region.hypotheses = 42;
+  region.reliability = 0.25;
   region.detail = "slides";
   result.regions.push_back(region);
   return file;
@@ -54,6 +56,7 @@ TEST(Result, hasTheFieldsThatOthersReadFromIt)
 {
   const json root = json::parse(toJson(example()));
   EXPECT_EQ(root["frame_id"], "camera_optical");
+  EXPECT_EQ(root["model_id"], "bracket");
   EXPECT_EQ(root["status"], "OK");
   EXPECT_EQ(root["time_ms"], 500.0);
   EXPECT_EQ(root["train_ms"], 250.0);
@@ -76,6 +79,7 @@ TEST(Result, hasTheFieldsThatOthersReadFromIt)
   EXPECT_EQ(root["regions"][0]["size"], (std::vector<double>{0.3, 0.2, 0.1}));
   EXPECT_EQ(root["regions"][0]["reason"], "SPREAD");
   EXPECT_EQ(root["regions"][0]["hypotheses"], 42);
+  EXPECT_EQ(root["regions"][0]["reliability"], 0.25);
 }
 
 TEST(Result, isReadBackAsWritten)

@@ -26,6 +26,7 @@ TEST(PickablePoses, areTheReliableOnesInTheTargetFrame)
   EXPECT_EQ(poses[1].id, "pin/2");
   EXPECT_EQ(poses[0].model_id, "nut");
   EXPECT_FLOAT_EQ(poses[0].score, 0.9F);
+  EXPECT_FLOAT_EQ(poses[0].reliability, 0.95F);
   const Eigen::Isometry3d T_target_model = exampleTransform() * shift(0, 0, 0.5);
   EXPECT_TRUE(toEigen(poses[0].pose.pose).isApprox(T_target_model, 1e-12));
   EXPECT_EQ(poses[0].pose.covariance[0], -1.0);
@@ -54,6 +55,7 @@ TEST(MismatchRegions, keepEveryFigure)
   EXPECT_EQ(regions[0].size.y, 0.1);
   EXPECT_EQ(regions[0].hypotheses, 12U);
   EXPECT_FLOAT_EQ(regions[0].score, 0.7F);
+  EXPECT_FLOAT_EQ(regions[0].reliability, 0.3F);
   EXPECT_EQ(regions[0].detail, "slides");
 }
 

@@ -47,6 +47,7 @@ inline DetectionView exampleView()
   result.poses.resize(3);
   result.poses[0].model = 1;
   result.poses[0].score = 0.9;
+  result.poses[0].reliability = 0.95;
   result.poses[0].T_cloud_model = shift(0, 0, 0.5);
   result.poses[1].score = 0.8;
   result.poses[0].reliable = result.poses[1].reliable = true;
@@ -56,6 +57,7 @@ inline DetectionView exampleView()
   result.regions[0].box = {shift(0, 0.1, 0.5), Eigen::Vector3d(0.2, 0.1, 0)};
   result.regions[0].T_cloud_best = shift(0, 0.1, 0.6);
   result.regions[0].score = 0.7;
+  result.regions[0].reliability = 0.3;
   result.regions[0].hypotheses = 12;
   result.regions[0].detail = "slides";
   result.clusters.resize(1);

@@ -1,3 +1,4 @@
+#include "ppf_bin_picking/io/file_bytes.hpp"
 #include "ppf_bin_picking/io/result_io.hpp"
 
 #include "support/files.hpp"
@@ -159,7 +160,7 @@ TEST_F(CommandLine, isDocumentedWhole)
   DetectionResult result;
   result.poses.emplace_back();
   result.regions.emplace_back();
-  const std::string json = toJson(ResultFile{"cam", 0, result});
+  const std::string json = toJson(ResultFile{"cam", {}, 0, result});
   const std::regex key("\"([a-z_]+)\":");
   for (std::sregex_iterator found(json.begin(), json.end(), key), end; found != end; ++found)
     words.insert(found->str(1));
@@ -200,10 +201,43 @@ TEST_F(CommandLine, refusesBadFiles)
   expectRefused("detect_poses", detect({"--model", mesh_}), "is no model file");
   folder_.write("depth.png", plane().substr(0, 100));
   expectRefused("detect_poses", detect(), "it is cut off");
+  folder_.write("depth.png", plane());
   expectRefused("check_poses", {camera_, "--part", part_, "--depth", depth_, "--camera", camera_},
                 "is no result of detect_poses");
+  ASSERT_EQ(run("detect_poses", detect()).status, 0);
+  const std::string other = folder_.write("part/other.yaml", kPart);
+  expectRefusal(
+      run("check_poses", {result_, "--part", other, "--depth", depth_, "--camera", camera_}),
+      "check_poses", "holds poses of the part 'part', not of 'other'");
+  std::filesystem::remove(result_);
   folder_.write("part/model.stl", "solid\nendsolid\n");
   expectRefused("detect_poses", detect(), "holds no finite surface");
+}
+
+TEST_F(CommandLine, refusesAnOutputThatIsAnInput)
+{
+  const auto contents = [&] {
+    return std::vector<std::string>{readFile(depth_, 1 << 20), readFile(mesh_, 1 << 20)};
+  };
+  const std::vector<std::string> before = contents();
+  const std::vector<std::string> scene = {"--part", part_, "--depth", depth_, "--camera", camera_};
+  for (const std::string& input : {part_, depth_, camera_, mesh_})
+  {
+    std::vector<std::string> arguments = scene;
+    arguments.insert(arguments.end(), {"--output", input});
+    expectRefused("detect_poses", arguments, "is both an input and the output");
+  }
+  std::filesystem::create_symlink(mesh_, folder_.file("link.ppf"));
+  expectRefused("train_model", {"--part", part_, "--output", folder_.file("link.ppf")},
+                "is both an input and the output");
+  EXPECT_EQ(contents(), before);
+}
+
+TEST_F(CommandLine, warnsWithoutARegion)
+{
+  expectHolds(run("detect_poses", detect()).err, "warning: no region of interest is given");
+  const std::string err = run("detect_poses", detect({"--roi", roi_})).err;
+  EXPECT_EQ(err.find("warning"), std::string::npos) << err;
 }
 
 TEST_F(CommandLine, refusesAModelThatDoesNotFit)

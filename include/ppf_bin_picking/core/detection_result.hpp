@@ -79,7 +79,7 @@ struct DetectedPose
   std::uint32_t model = 0;  ///< Index of the model in the call.
   Eigen::Isometry3d T_cloud_model =
       Eigen::Isometry3d::Identity();  ///< The mesh's frame in the cloud's [m].
-  double score = 0;  ///< Share of the surface the camera should see that the cloud confirms. [0, 1]
+  double score = 0;  ///< Share of the surface it expects that the cloud confirms; see poseScore().
   double votes = 0;  ///< Summed votes of the pose's group of hypotheses.
   double visible_fraction =
       0;  ///< Of the surface a free part would show, the share not hidden by others.
@@ -117,7 +117,8 @@ struct MismatchingRegion
   OrientedBox box;  ///< Spread: of the hypotheses' centres; otherwise of the part at best_pose.
   Eigen::Isometry3d T_cloud_best =
       Eigen::Isometry3d::Identity();  ///< Its best pose, T_cloud_model [m].
-  double score = 0;
+  double score = 0;                   ///< Of the best pose, as of a DetectedPose.
+  double reliability = 0;             ///< The same.
   std::size_t hypotheses = 0;
   std::string detail;  ///< One sentence with the figures.
 };

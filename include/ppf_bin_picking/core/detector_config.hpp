@@ -56,11 +56,15 @@ struct DetectorConfig
   int poses_per_cluster = 0;  ///< Poses of a cluster that are verified; 0: all, 1: as in the paper.
 
   // Mismatching regions
-  bool mismatch_test = true;      ///< Mark poses that spread or slide as unreliable.
-  double max_spread_rel = 1.5;    ///< Largest sum of a cluster's box sides. > 0.
-  double max_slide_share = 0.85;  ///< Largest share of open outline of a loosely held pose. [0, 1].
-  double min_margin = 0.05;       ///< Least lead over the best other pose there. [-1, 1].
-  double min_reliability = 0.85;  ///< Least probability that a pose is right. [0, 1].
+  bool mismatch_test = true;    ///< False: score, visible share and confirmed pixels alone decide.
+  double max_spread_rel = 1.5;  ///< Largest sum of a cluster's box sides. > 0.
+  /// Largest share of open outline; beyond it a pose answers for the spread of its whole cluster,
+  /// and is not reliable if it is held loosely. [0, 1].
+  double max_slide_share = 0.85;
+  double firm_hold = 0.07;          ///< From this hold on a pose is not held loosely. >= 0.
+  double max_outline_broken = 0.7;  ///< Largest broken share of the edges in sight. [0, 1].
+  double min_margin = 0.05;         ///< Least lead over the best other pose there. [-1, 1].
+  double min_reliability = 0.85;    ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
@@ -108,6 +112,8 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("mismatch_test", config.mismatch_test);
   visit("max_spread_rel", config.max_spread_rel);
   visit("max_slide_share", config.max_slide_share);
+  visit("firm_hold", config.firm_hold);
+  visit("max_outline_broken", config.max_outline_broken);
   visit("min_margin", config.min_margin);
   visit("min_reliability", config.min_reliability);
   visit("max_candidates", config.max_candidates);

@@ -3,13 +3,16 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace ppf_bin_picking
 {
 /// One shot of a depth camera. Coordinates are metres in the camera's optical frame: z forward, the
-/// camera at the origin. A point without measurement has a non-finite coordinate (REP-117).
+/// camera at the origin. A point without measurement has a non-finite coordinate (REP-117), or is
+/// zero.
 struct PointCloud
 {
   std::vector<Eigen::Vector3f> points;   ///< [m]; row after row where the cloud is organised.
@@ -20,4 +23,11 @@ struct PointCloud
   bool organised() const { return height > 1; }
   std::size_t size() const { return points.size(); }
 };
+
+/// True for a finite point that a camera can have seen: at least 1 mm in front of it, and not
+/// sideways of it (87 degrees off the line of sight).
+inline bool measured(const Eigen::Vector3f& p)
+{
+  return p.allFinite() && p.z() > 1e-3F && std::max(std::abs(p.x()), std::abs(p.y())) < 20 * p.z();
+}
 }  // namespace ppf_bin_picking

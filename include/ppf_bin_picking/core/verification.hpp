@@ -73,7 +73,8 @@ struct PoseEvidence
 PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config);
 
-/// Share of the surface the camera should see that the cloud confirms, in [0, 1].
+/// Share of the surface the camera should see that the cloud confirms, in [0, 1]. What it claims
+/// beyond `confirmed` and its broken edges count against it.
 /// @param confirmed  Weight of the confirmed pixels that count, at most confirmed_weight.
 double poseScore(const PoseEvidence& evidence, double confirmed);
 

@@ -11,6 +11,7 @@ namespace ppf_bin_picking
 struct ResultFile
 {
   std::string frame_id;      ///< The cloud's frame; empty where the cloud names none.
+  std::string model_id;      ///< Of the part; empty where the file names none.
   double train_seconds = 0;  ///< 0 where the model came from a file.
   DetectionResult result;
 };
