@@ -34,13 +34,14 @@ struct Options
   std::vector<std::string> peers = {"fast", "accurate", "PCL", "OpenCV"};
   unsigned limit_s = 600;
   int repeat = 5;
+  double opencv_scene_step = 0.03;
   bool facts = false;
 };
 
 std::unique_ptr<Peer> makePeer(const std::string& name, const Options& options)
 {
   if (name == "PCL") return pclPeer();
-  if (name == "OpenCV") return opencvPeer();
+  if (name == "OpenCV") return opencvPeer(options.opencv_scene_step);
   return ownPeer(options.repeat);
 }
 
@@ -152,6 +153,9 @@ void addOptions(Options& options, CLI::App& app)
       ->check(CLI::Range(1, 86400));
   app.add_option("--repeat", options.repeat, "Runs of this detector; the median one counts")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--opencv-scene-step", options.opencv_scene_step,
+                 "OpenCV's sampling of the scene, relative to the scene's extent")
+      ->check(CLI::Range(0.001, 1.0));
 }
 
 void compare(const Options& options)

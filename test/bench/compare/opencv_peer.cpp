@@ -11,7 +11,6 @@ namespace
 namespace ppf = cv::ppf_match_3d;
 
 constexpr double kAngleSteps = 30;
-constexpr double kSceneRel = 0.03;    // its default; of the scene's extent, not of the part's
 constexpr std::size_t kRefined = 30;  // poses that go through ICP: about as many as a bin has parts
 // As in OpenCV's own example.
 constexpr int kIcpIterations = 100;
@@ -46,6 +45,8 @@ DetectedPose poseOf(const ppf::Pose3D& found)
 class OpencvPeer : public Peer
 {
 public:
+  explicit OpencvPeer(double scene_step) : scene_step_(scene_step) {}
+
   void train(const ToolPart& part) override
   {
     const PeerPart made = peerPart(part);
@@ -60,7 +61,8 @@ public:
     const cv::Mat points = matrixOf(scene.voxels);
     std::vector<ppf::Pose3DPtr> found;
     timeStage(
-        "match", [&] { detector_.match(points, found, 1.0 / kReferenceStride, kSceneRel); }, peer);
+        "match", [&] { detector_.match(points, found, 1.0 / kReferenceStride, scene_step_); },
+        peer);
     found.resize(std::min(found.size(), kRefined));
     ppf::ICP icp(kIcpIterations, kIcpTolerance, kIcpRejection, kIcpLevels);
     timeStage(
@@ -72,13 +74,14 @@ public:
   }
 
 private:
+  double scene_step_;
   cv::Mat model_;
   ppf::PPF3DDetector detector_{kStepRel, kStepRel, kAngleSteps};
 };
 }  // namespace
 
-std::unique_ptr<Peer> opencvPeer()
+std::unique_ptr<Peer> opencvPeer(double scene_step)
 {
-  return std::make_unique<OpencvPeer>();
+  return std::make_unique<OpencvPeer>(scene_step);
 }
 }  // namespace ppf_bin_picking

@@ -65,7 +65,8 @@ std::unique_ptr<Peer> ownPeer(int repeat);
 std::unique_ptr<Peer> pclPeer();
 
 /// OpenCV's PPF3DDetector with its ICP.
-std::unique_ptr<Peer> opencvPeer();
+/// @param scene_step  Its sampling of the scene, relative to the scene's extent.
+std::unique_ptr<Peer> opencvPeer(double scene_step);
 
 /// Surface samples and diameter of a part.
 PeerPart peerPart(const ToolPart& part);
