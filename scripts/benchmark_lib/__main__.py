@@ -2,10 +2,7 @@
 
 import argparse
 import json
-import os
-import platform
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -13,7 +10,7 @@ from . import cases
 from .closed_loop import run_loops
 from .detection import Bench, write_configs
 from .pictures import draw_curves, draw_scene
-from .programs import BenchmarkError, run_to_end
+from .programs import BenchmarkError, commit, machine, run_to_end
 from .report import write_report
 
 
@@ -132,19 +129,14 @@ def difference(first, second, place="figures"):
 
 def run_facts(options, bench):
     """What the report says about how it was made."""
-    commit = subprocess.run(
-        ["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False
-    ).stdout.strip()
-    with open("/proc/cpuinfo", encoding="ascii") as stream:
-        models = [line.split(":")[1].strip() for line in stream if line.startswith("model name")]
     words = [word for word in sys.argv[1:] if word != "--check"]
     return {
         "command": " ".join(["scripts/benchmark", *words]),
         "folder": options.folder,
         "fills": ", ".join(map(str, options.fills)),
         "presets": ", ".join(options.presets),
-        "commit": commit or "unknown",
-        "machine": f"{os.cpu_count()} cores, {models[0] if models else platform.machine()}",
+        "commit": commit(),
+        "machine": machine(),
         "loop_count": options.loop_count,
         "picture": picture_scene(options, options.parts[0]).name,
     }

@@ -2,6 +2,8 @@
 
 import functools
 import hashlib
+import os
+import platform
 import re
 import subprocess
 import sys
@@ -27,6 +29,21 @@ def run_to_end(command, body):
         return 2
     print(f"Duration: {time.monotonic() - start:.0f} s")
     return status
+
+
+def commit():
+    """Of the working copy, with a mark if files differ from it."""
+    described = subprocess.run(
+        ["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False
+    )
+    return described.stdout.strip() or "unknown"
+
+
+def machine():
+    """Cores and their name."""
+    with open("/proc/cpuinfo", encoding="ascii") as stream:
+        models = [line.split(":")[1].strip() for line in stream if line.startswith("model name")]
+    return f"{os.cpu_count()} cores, {models[0] if models else platform.machine()}"
 
 
 def digest(*things):

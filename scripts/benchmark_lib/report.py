@@ -29,6 +29,7 @@ STAGES = (
     "clustering",
     "grouping",
     "boundary voting",
+    "pruning",
     "refinement",
     "verification",
     "selection",
@@ -82,6 +83,11 @@ def loop_table(loops):
     return table(["part", *keys, "s a cycle", "why it ended"], rows + [total + ["", ""]])
 
 
+def p95(values):
+    """The 95th percentile of at least one value."""
+    return sorted(values)[min(len(values) - 1, int(0.95 * len(values)))]
+
+
 def time_table(times):
     """Median milliseconds by stage; the whole with its 95th percentile and maximum."""
     found = {stage for scenes in times.values() for t in scenes for stage in t} - {"all"}
@@ -89,9 +95,8 @@ def time_table(times):
     rows = []
     for part, scenes in times.items():
         medians = [statistics.median(t.get(stage, 0) for t in scenes) for stage in stages]
-        whole = sorted(t["all"] for t in scenes)
-        p95 = whole[min(len(whole) - 1, int(0.95 * len(whole)))]
-        cells = [*medians, statistics.median(whole), p95, whole[-1]]
+        whole = [t["all"] for t in scenes]
+        cells = [*medians, statistics.median(whole), p95(whole), max(whole)]
         rows.append([part] + [f"{cell:.0f}" for cell in cells])
     return table(["part", *stages, "all", "p95", "max"], rows)
 

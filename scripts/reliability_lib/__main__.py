@@ -1,7 +1,6 @@
 """Command line of scripts/fit_reliability."""
 
 import argparse
-import subprocess
 import sys
 from pathlib import Path
 
@@ -9,7 +8,7 @@ import numpy as np
 
 from benchmark_lib.cases import all_parts
 from benchmark_lib.detection import write_configs
-from benchmark_lib.programs import BenchmarkError, run_to_end
+from benchmark_lib.programs import BenchmarkError, commit, run_to_end
 
 from .regression import fit, predict_left_out
 from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
@@ -65,14 +64,11 @@ def fit_all(poses):
 
 def run_facts(options, plan):
     """What the report says about how it was made."""
-    commit = subprocess.run(
-        ["git", "describe", "--always", "--dirty"], capture_output=True, text=True, check=False
-    ).stdout.strip()
     return {
         "command": " ".join(["scripts/fit_reliability", *sys.argv[1:]]),
         "folder": options.folder,
         "plan": plan,
-        "commit": commit or "unknown",
+        "commit": commit(),
     }
 
 

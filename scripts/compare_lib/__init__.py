@@ -1,0 +1,1 @@
+"""The comparison: this detector and those of PCL and OpenCV on the same scenes, and a report."""
