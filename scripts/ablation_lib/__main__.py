@@ -1,0 +1,128 @@
+"""Command line of scripts/ablation."""
+
+import argparse
+import json
+import os
+import statistics
+import sys
+from pathlib import Path
+
+from benchmark_lib import cases
+from benchmark_lib.detection import Bench
+from benchmark_lib.programs import BenchmarkError, commit, machine, run_to_end
+
+from .copies import CopiedBench, copy_bins, copy_real, reliable_poses, suspicious_poses
+from .report import write_page
+from .rows import ROWS
+
+SEEDS = (1, 2, 3, 4)  # of the noise
+FILL = 16  # of the package's own scenes
+
+
+def arguments():
+    names = [row.name for row in ROWS]
+    parser = argparse.ArgumentParser(
+        prog="scripts/ablation",
+        description="Changes one setting at a time and measures what it does; writes a report. What was done before is not done again.",
+    )
+    data = Path(os.environ.get("PPF_BIN_PICKING_DATA", "../shared/data"))
+    parser.add_argument("--data", type=Path, default=data, help="holds bins and real/pins")
+    parser.add_argument("--rows", nargs="+", choices=names, metavar="NAME", help=", ".join(names))
+    parser.add_argument("--seeds", nargs="+", type=int, default=list(SEEDS), help="of the noise")
+    parser.add_argument("--folder", type=Path, default=Path("build/ablation"))
+    parser.add_argument(
+        "--benchmark", type=Path, default=Path("build/benchmark"), help="folder of scripts/benchmark"
+    )
+    parser.add_argument(
+        "--report",
+        type=Path,
+        help="default: docs/ablation.md if all is measured, else ablation.md in the folder",
+    )
+    return parser.parse_args()
+
+
+def write_configs(folder, rows):
+    """Settings files of the rows. Returns their paths by the rows' names."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = {}
+    for row in rows:
+        paths[row.name] = folder / f"{row.name}.yaml"
+        lines = [f"{key}: {json.dumps(value)}\n" for key, value in row.settings.items()]
+        paths[row.name].write_text("".join(lines) or "{}\n")
+    return paths
+
+
+class Ablation:
+    """The three sets of scenes, and what a row's settings do to them."""
+
+    def __init__(self, options, rows):
+        folder = options.folder.resolve()
+        configs = write_configs(folder / "configs", rows)
+        self.bins = CopiedBench(folder / "bins", configs)
+        self.real = CopiedBench(folder / "real", configs)
+        self.own = Bench(options.benchmark.resolve(), configs)
+        self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
+        self.real_scenes = copy_real(options.data / "real/pins", self.real)
+        self.own_scenes = cases.scene_set(cases.all_parts(), [FILL], cases.PRESETS)
+        self.own.simulate_all(self.own_scenes)
+
+    def measure(self, row):
+        """Figures of a row."""
+        own = self.own_figures(row.name)
+        bins = [self.bin_figures(row.name, seed) for seed in self.bin_scenes]
+        self.real.detect_all(row.name, self.real_scenes)
+        found = [reliable_poses(self.real, row.name, scene) for scene in self.real_scenes]
+        return {
+            "bins": bins,
+            "own": own,
+            "pins": found[0],
+            "suspicious": suspicious_poses(self.real, row.name, self.real_scenes[0]),
+            "others": sum(found[1:]),
+        }
+
+    def bin_figures(self, variant, seed):
+        scenes = self.bin_scenes[seed]
+        self.bins.detect_all(variant, scenes)
+        summary = self.bins.evaluate(f"seed-{seed}", variant, scenes)["summary"]
+        return {**summary, "ms": self.median_ms(self.bins, variant, scenes)}
+
+    def own_figures(self, variant):
+        self.own.detect_all(variant, self.own_scenes)
+        summary = self.own.evaluate("ablation", variant, self.own_scenes)["summary"]
+        return {**summary, "ms": self.median_ms(self.own, variant, self.own_scenes)}
+
+    @staticmethod
+    def median_ms(bench, variant, scenes):
+        return statistics.median(times["all"] for times in bench.stage_times(variant, scenes))
+
+
+def work(options):
+    """Returns the exit status."""
+    rows = [row for row in ROWS if row.name in (options.rows or [row.name])]
+    if rows[0].name != ROWS[0].name:
+        rows.insert(0, ROWS[0])  # what the others are compared with
+    ablation = Ablation(options, rows)
+    figures = {row.name: ablation.measure(row) for row in rows}
+    (options.folder / "figures.json").write_text(json.dumps(figures, indent=1))
+    complete = not options.rows and tuple(options.seeds) == SEEDS
+    page = options.report or (Path("docs") if complete else options.folder) / "ablation.md"
+    facts = {
+        "command": " ".join(["scripts/ablation", *sys.argv[1:]]),
+        "folder": options.folder,
+        "seeds": len(options.seeds),
+        "fill": FILL,
+        "commit": commit(),
+        "machine": machine(),
+    }
+    page.write_text(write_page(facts, rows, figures))
+    print(f"Wrote {page}")
+    return 0
+
+
+def main():
+    options = arguments()
+    return run_to_end("scripts/ablation", lambda: work(options))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+"""Scenes of the data folder, copied so that a bench can work on them: bins with a little more noise, and a real scan."""
+
+import json
+import shutil
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+import yaml
+from PIL import Image
+
+from benchmark_lib.detection import Bench
+from benchmark_lib.programs import BenchmarkError, digest, run
+
+from compare_lib.comparison import decimal, region_text
+
+NOISE_M = 0.00005  # standard deviation added to the depth, of the order of the sensor's own
+REAL_PART = "pins"  # also the bin that holds the part; the others hold none
+
+
+@dataclass(frozen=True)
+class CopiedScene:
+    """A scene of a CopiedBench."""
+
+    part: str
+    name: str
+
+
+class CopiedBench(Bench):
+    """A bench whose scenes and parts are files that others made."""
+
+    def part_digest(self, part):
+        return digest(*files_in(self.part_folder(part)))
+
+    def scene_key(self, scene):
+        return digest(*files_in(self.scene_path(scene)))
+
+
+def files_in(folder):
+    """In a fixed order."""
+    return sorted(path for path in folder.iterdir() if path.is_file())
+
+
+def copy_files(source, folder, names):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        shutil.copyfile(source / name, folder / name)
+
+
+def copy_part(source, folder):
+    copy_files(source, folder, [path.name for path in files_in(source)])
+
+
+def add_noise(path, unit_m, seed):
+    """Gaussian noise on what is measured."""
+    with Image.open(path) as image:
+        levels = np.array(image)
+    noise = np.random.default_rng(seed).normal(0, NOISE_M / unit_m, levels.shape)
+    noisy = np.clip(np.rint(levels + noise), 1, np.iinfo(np.uint16).max)
+    Image.fromarray(np.where(levels > 0, noisy, 0).astype(np.uint16)).save(path)
+
+
+def copy_bins(data, bench, seeds):
+    """Each scene of the data set once a seed, with its bin as the region. Returns the scenes by seed."""
+    sources = sorted(path.parent for path in data.glob("*/*/gt.json"))
+    if not sources:
+        raise BenchmarkError(f"{data} has no scenes: name the data folder with --data.")
+    scenes = {seed: [] for seed in seeds}
+    for source in sources:
+        part = source.parent.name
+        copy_part(source.parent, bench.part_folder(part))
+        unit_m = yaml.safe_load((source / "camera.yaml").read_text())["depth_unit_m"]
+        region = region_text(json.loads((source / "gt.json").read_text()))
+        for seed in seeds:
+            scene = CopiedScene(part, f"{source.name}-noise-{seed}")
+            folder = bench.scene_path(scene)
+            copy_files(source, folder, ("depth.png", "camera.yaml", "gt.json"))
+            add_noise(folder / "depth.png", unit_m, zlib.crc32(f"{part}/{scene.name}".encode()))
+            (folder / "roi.yaml").write_text(region)
+            scenes[seed].append(scene)
+    return scenes
+
+
+def copy_real(data, bench):
+    """The real scan with each of its regions. Returns the scenes; the first holds the part."""
+    bins = data / "bins.yaml"
+    if not bins.is_file():
+        raise BenchmarkError(f"{bins} is missing: name the data folder with --data.")
+    regions = yaml.safe_load(bins.read_text())["regions"]
+    part = yaml.safe_load((data / "part.yaml").read_text())
+    copy_files(data, bench.part_folder(REAL_PART), ("part.yaml", part["mesh"]))
+    scenes = []
+    for name in sorted(regions, key=lambda region: (region != REAL_PART, region)):
+        scene = CopiedScene(REAL_PART, name)
+        copy_files(data, bench.scene_path(scene), ("depth.png", "camera.yaml"))
+        lines = [f"{k}: [{', '.join(map(decimal, v))}]\n" for k, v in regions[name].items()]
+        (bench.scene_path(scene) / "roi.yaml").write_text("".join(lines))
+        scenes.append(scene)
+    return scenes
+
+
+def reliable_poses(bench, variant, scene):
+    """How many a result holds."""
+    result = json.loads(bench.result_path(variant, scene).read_text())
+    return sum(pose["reliable"] for pose in result["poses"])
+
+
+def suspicious_poses(bench, variant, scene):
+    """How many of the reliable poses check_poses finds suspicious."""
+    printed = run(
+        "check_poses",
+        bench.result_path(variant, scene),
+        *("--part", bench.part_folder(scene.part) / "part.yaml"),
+        *("--config", bench.configs[variant]),
+        *bench.scene_arguments(scene),
+    )
+    return int(printed.splitlines()[-1].split()[-2])

@@ -1,0 +1,119 @@
+"""The report as Markdown."""
+
+import statistics
+
+from benchmark_lib.report import number, table
+
+from .copies import NOISE_M
+
+# Columns of the evaluation scenes by part: heading, key of evaluate_poses, digits.
+COLUMNS = (
+    ("AP", "AP", 3),
+    ("precision", "precision", 3),
+    ("recall", "recall", 3),
+    ("first pick", "first", 2),
+    ("right lost", "lost", 3),
+    ("mm", "t_mm", 3),
+    ("degrees", "r_deg", 3),
+)
+KEYS = ("AP", "precision", "recall")
+
+
+def mean(values):
+    """None if one of them does not exist."""
+    values = list(values)
+    return None if None in values else statistics.mean(values)
+
+
+def over_seeds(bins, part, key):
+    """Mean of a figure of the evaluation scenes."""
+    return mean(seed[part][key] for seed in bins)
+
+
+def time_of(figures, name, first):
+    """Over that of the first row: each scene set's own median, their geometric mean."""
+
+    def times(row):
+        return statistics.mean(seed["ms"] for seed in row["bins"]), row["own"]["ms"]
+
+    ratios = [a / b for a, b in zip(times(figures[name]), times(figures[first]))]
+    return statistics.geometric_mean(ratios)
+
+
+def step_table(rows, figures):
+    """One line a row."""
+    heading = ["setting", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
+    heading += ["other bins", "time"]
+    lines = []
+    for row in rows:
+        figure = figures[row.name]
+        lines.append(
+            [f"`{row.name}`"]
+            + [number(over_seeds(figure["bins"], "ALL", key), 3) for key in KEYS]
+            + [number(figure["own"]["ALL"][key], 3) for key in KEYS]
+            + [figure["pins"], figure["suspicious"], figure["others"]]
+            + [f"{time_of(figures, row.name, rows[0].name):.2f}"]
+        )
+    return table(heading, lines)
+
+
+def seed_table(bins):
+    """The first row's figures seed by seed, and their mean."""
+    lines = [
+        [f"seed {i + 1}"] + [number(seed["ALL"][key], digits) for _, key, digits in COLUMNS]
+        for i, seed in enumerate(bins)
+    ]
+    means = [number(over_seeds(bins, "ALL", key), digits) for _, key, digits in COLUMNS]
+    return table(["noise", *[heading for heading, _, _ in COLUMNS]], [*lines, ["mean", *means]])
+
+
+def part_table(bins):
+    """The first row's means by part."""
+    lines = [
+        [part] + [number(over_seeds(bins, part, key), digits) for _, key, digits in COLUMNS]
+        for part in bins[0]
+        if part != "ms"
+    ]
+    return table(["part", *[heading for heading, _, _ in COLUMNS]], lines)
+
+
+def settings_text(row):
+    return ", ".join(f"{key}: {value}" for key, value in row.settings.items()) or "the defaults"
+
+
+def decisions(rows):
+    """A line for each row."""
+    return "".join(f"- `{row.name}` ({settings_text(row)}): {row.decision}\n" for row in rows)
+
+
+def introduction(facts):
+    """What was done, and how to do it again."""
+    return f"""# What each step brings
+
+One setting is changed at a time; everything else stays as config/detector.yaml has it. This page is written by
+
+    {facts['command']}
+
+which keeps what is done in `{facts['folder']}` and `build/benchmark`. Commit {facts['commit']}; {facts['machine']}.
+
+- AP, P, R (precision and recall of the reliable poses): the scenes of `data/bins`, mean over {facts['seeds']} copies with Gaussian noise of
+  {NOISE_M * 1000:g} mm added to their depth; the detector itself draws no random numbers. Judged by `evaluate_poses`.
+- own: the scenes of scripts/benchmark with {facts['fill']} parts in the bin, all parts and sensors.
+- pins: reliable poses on the real scan's bin of pins (about 36 lie there), how many of them `check_poses` finds suspicious, and the reliable poses in
+  the three bins beside it, where no pin lies and every pose is wrong.
+- time: of a whole detection, over that of the first row; medians of the first two sets, their geometric mean.
+"""
+
+
+def write_page(facts, rows, figures):
+    """The whole page. figures: of each row, as Ablation.measure gives them."""
+    bins = figures[rows[0].name]["bins"]
+    return "\n".join(
+        [
+            introduction(facts),
+            step_table(rows, figures),
+            "## Decisions\n\n" + decisions(rows),
+            "## The evaluation scenes, seed by seed\n\n" + seed_table(bins),
+            "## ... and by part\n\nMeans over the seeds.\n\n" + part_table(bins),
+        ]
+    )

@@ -1,0 +1,46 @@
+"""What is changed, one setting at a time, and what was decided."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Row:
+    """A change of the settings, and what follows from its figures."""
+
+    name: str
+    settings: dict
+    decision: str
+
+
+ROWS = (
+    Row("default", {}, "the detector as it is"),
+    Row("original", {"clustering": "greedy", "mismatch_test": False, "min_score": 0.5}, "TODO"),
+    Row("greedy", {"clustering": "greedy"}, "TODO"),
+    Row("one-a-cluster", {"poses_per_cluster": 1}, "TODO"),
+    Row("no-tests", {"mismatch_test": False}, "TODO"),
+    Row("no-spread", {"max_spread_rel": 100.0}, "TODO"),
+    Row("no-slide", {"max_slide_share": 1.0}, "TODO"),
+    Row("slide-of-all", {"firm_hold": 100.0}, "TODO"),
+    Row("no-outline-gate", {"max_outline_broken": 1.0}, "TODO"),
+    Row("no-margin", {"min_margin": -1.0}, "TODO"),
+    Row("margin-0.1", {"min_margin": 0.1}, "TODO"),
+    Row("no-reliability", {"min_reliability": 0}, "TODO"),
+    Row("reliability-0.95", {"min_reliability": 0.95}, "TODO"),
+    Row("no-icp", {"icp_iterations": 0}, "TODO"),
+    Row("icp-4", {"icp_iterations": 4}, "TODO"),
+    Row("icp-24", {"icp_iterations": 24}, "TODO"),
+    Row("no-quick-fit", {"min_sparse_balance": -2}, "TODO"),
+    Row("quick-fit-0", {"min_sparse_balance": 0}, "TODO"),
+    Row("candidates-100", {"max_candidates": 100}, "TODO"),
+    Row("candidates-600", {"max_candidates": 600}, "TODO"),
+    Row("one-peak", {"peaks_per_reference": 1}, "TODO"),
+    Row("references-0.05", {"reference_share": 0.05}, "TODO"),
+    Row("references-0.2", {"reference_share": 0.2}, "TODO"),
+    Row("lambda-0.5", {"lambda": 0.5}, "TODO"),
+    Row("step-0.05", {"step_rel": 0.05}, "TODO"),
+    Row("pixels-70", {"pixels_per_diameter": 70}, "TODO"),
+    Row("pixels-140", {"pixels_per_diameter": 140}, "TODO"),
+    Row("normals-3", {"normal_radius_px": 3}, "TODO"),
+    Row("gate-0.01", {"depth_gate_rel": 0.01}, "TODO"),
+    Row("gate-0.03", {"depth_gate_rel": 0.03}, "TODO"),
+)

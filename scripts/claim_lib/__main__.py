@@ -1,0 +1,117 @@
+"""Command line of scripts/claim."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from benchmark_lib.cases import VARIANTS, Scene
+from benchmark_lib.detection import Bench, write_configs
+from benchmark_lib.programs import commit, machine, run_to_end
+
+from .precision import Ranking
+from .report import write_page
+
+# Parts on which surfaces slide over one another or hide what tells poses apart, and parts on which they do not.
+GROUPS = {
+    "prone": ("bolt", "box", "cylinder", "elbow", "plate", "profile", "shaft", "tee"),
+    "control": ("bracket", "clip"),
+}
+SEEDS = {"prone": range(301, 314), "control": range(301, 351)}
+FILL = 16
+PRESET = "industrial"
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        prog="scripts/claim",
+        description="Tests on simulated scenes what the mismatch test claims; writes a report. What was done before is not done again.",
+    )
+    parser.add_argument("--seeds", type=int, metavar="N", help="no more than N seeds a part: a trial")
+    parser.add_argument("--folder", type=Path, default=Path("build/claim"))
+    parser.add_argument(
+        "--report",
+        type=Path,
+        help="default: docs/claim.md if everything is used, else claim.md in the folder",
+    )
+    return parser.parse_args()
+
+
+def scenes_of(group, most):
+    """Scenes of a group of parts."""
+    seeds = list(SEEDS[group])[:most]
+    return [Scene(part, FILL, PRESET, seed) for part in GROUPS[group] for seed in seeds]
+
+
+def ranking(bench, variant, judged, scenes):
+    """All poses of a variant: reliable ones first; then by the number that it trusts."""
+    number = "reliability" if variant == "default" else "score"
+    by_name = {
+        (part, scene["scene"]): scene
+        for part, judged_scenes in judged["scenes"].items()
+        for scene in judged_scenes
+    }
+    rows = []
+    for scene in scenes:
+        one = by_name[scene.part, scene.name]
+        poses = json.loads(bench.result_path(variant, scene).read_text())["poses"]
+        rows.append(
+            (
+                one["targets"],
+                [
+                    (
+                        (poses[pose["index"]]["reliable"], poses[pose["index"]][number]),
+                        pose["verdict"] == "right",
+                    )
+                    for pose in one["poses"]
+                    if pose["verdict"] != "ignored"
+                ],
+            )
+        )
+    return Ranking.of(rows)
+
+
+def measure(bench, groups):
+    """Of each group and variant the ranking and what evaluate_poses says."""
+    figures = {}
+    for group, scenes in groups.items():
+        bench.simulate_all(scenes)
+        for variant in VARIANTS:
+            bench.detect_all(variant, scenes)
+            judged = bench.evaluate(group, variant, scenes)
+            ranked = ranking(bench, variant, judged, scenes)
+            figures.setdefault(group, {})[variant] = (ranked, judged["summary"])
+    return figures
+
+
+def work(options):
+    """Returns the exit status."""
+    folder = options.folder.resolve()
+    bench = Bench(folder, write_configs(folder / "configs", VARIANTS, []))
+    groups = {group: scenes_of(group, options.seeds) for group in GROUPS}
+    figures = measure(bench, groups)
+    page = options.report or (folder if options.seeds else Path("docs")) / "claim.md"
+    facts = {
+        "command": " ".join(["scripts/claim", *sys.argv[1:]]),
+        "folder": options.folder,
+        "groups": {
+            group: f"{', '.join(GROUPS[group])}: {len(scenes)} scenes"
+            for group, scenes in groups.items()
+        },
+        "fill": FILL,
+        "preset": PRESET,
+        "commit": commit(),
+        "machine": machine(),
+    }
+    page.write_text(write_page(facts, figures))
+    print(f"Wrote {page}")
+    return 0
+
+
+def main():
+    options = arguments()
+    return run_to_end("scripts/claim", lambda: work(options))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
