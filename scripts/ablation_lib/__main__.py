@@ -31,7 +31,10 @@ def arguments():
     parser.add_argument("--seeds", nargs="+", type=int, default=list(SEEDS), help="of the noise")
     parser.add_argument("--folder", type=Path, default=Path("build/ablation"))
     parser.add_argument(
-        "--benchmark", type=Path, default=Path("build/benchmark"), help="folder of scripts/benchmark"
+        "--benchmark",
+        type=Path,
+        default=Path("build/benchmark"),
+        help="folder of scripts/benchmark",
     )
     parser.add_argument(
         "--report",

@@ -27,7 +27,9 @@ def arguments():
         prog="scripts/claim",
         description="Tests on simulated scenes what the mismatch test claims; writes a report. What was done before is not done again.",
     )
-    parser.add_argument("--seeds", type=int, metavar="N", help="no more than N seeds a part: a trial")
+    parser.add_argument(
+        "--seeds", type=int, metavar="N", help="no more than N seeds a part: a trial"
+    )
     parser.add_argument("--folder", type=Path, default=Path("build/claim"))
     parser.add_argument(
         "--report",

@@ -21,9 +21,7 @@ class Ranking:
     def of(cls, scenes):
         """scenes: of each one its targets and its poses, each a sort key (larger: more trusted) and right or not."""
         rows = [
-            (*key, index, right)
-            for index, (_, poses) in enumerate(scenes)
-            for key, right in poses
+            (*key, index, right) for index, (_, poses) in enumerate(scenes) for key, right in poses
         ]
         rows.sort(key=lambda row: row[:-2], reverse=True)  # stable: equal keys as they came
         return cls(
@@ -57,9 +55,7 @@ def bootstrap(first, second, recalls):
     differences = []
     for _ in range(REPEATS):
         times = np.bincount(generator.integers(scenes, size=scenes), minlength=scenes)
-        differences.append(
-            second.precision_at(recalls, times) - first.precision_at(recalls, times)
-        )
+        differences.append(second.precision_at(recalls, times) - first.precision_at(recalls, times))
     differences = np.array(differences)
     ends = np.full((2, len(recalls)), np.nan)
     for column, values in enumerate(differences.T):

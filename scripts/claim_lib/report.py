@@ -35,9 +35,7 @@ def difference_table(figures):
             continue
         gains = whole.precision_at(RECALLS) - ranked.precision_at(RECALLS)
         ends = bootstrap(ranked, whole, RECALLS)
-        cells = [
-            f"{gain:+.4f} ({interval(low, high)})" for gain, low, high in zip(gains, *ends)
-        ]
+        cells = [f"{gain:+.4f} ({interval(low, high)})" for gain, low, high in zip(gains, *ends)]
         rows.append([f"`default` less `{variant}`", *cells])
     return table(["difference", *[f"at recall {recall}" for recall in RECALLS]], rows)
 

@@ -75,7 +75,7 @@ std::string resolved(const std::string& given, const std::string& part_file, con
 
 std::string idOf(const std::string& path)
 {
-  const fs::path full = fs::absolute(path);
+  const fs::path full = fs::absolute(path).lexically_normal();
   return full.filename() == "part.yaml" ? full.parent_path().filename().string()
                                         : full.stem().string();
 }

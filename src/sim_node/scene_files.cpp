@@ -104,14 +104,15 @@ std::string yamlList(const Numbers& numbers)
   return text + "]";
 }
 
-/// The inside of the bin without its walls and floor.
+/// The inside of the bin without its walls and floor, and as far above its rim as it is deep: parts
+/// may be heaped.
 std::string roiYaml(const Eigen::Isometry3d& T_camera_bin, const Eigen::Vector3d& size_m)
 {
   const double x = size_m.x() / 2 - kWallGap_m;
   const double y = size_m.y() / 2 - kWallGap_m;
   return "pose: " + yamlList(rowMajor(T_camera_bin)) +
          "\nmin: " + yamlList(std::array<double, 3>{-x, -y, kFloorGap_m}) +
-         "\nmax: " + yamlList(std::array<double, 3>{x, y, size_m.z()}) + "\n";
+         "\nmax: " + yamlList(std::array<double, 3>{x, y, 2 * size_m.z()}) + "\n";
 }
 
 std::string truthJson(const std::vector<PartTruth>& parts, const Eigen::Isometry3d& T_camera_bin,

@@ -41,6 +41,8 @@ TEST_F(PartFile, needsNothingButTheUnit)
 TEST_F(PartFile, isNamedByItsFolderIfItIsCalledPart)
 {
   EXPECT_EQ(loadPart(folder_.write("bolt/part.yaml", "unit: m\n")).model_id, "bolt");
+  folder_.write("bolt/scene/camera.yaml", "");
+  EXPECT_EQ(loadPart(folder_.file("bolt/scene/../part.yaml")).model_id, "bolt");
   EXPECT_EQ(load("{unit: m, model_id: m8}").model_id, "m8");
 }
 

@@ -149,7 +149,7 @@ TEST_F(SimulateScene, depthAndTruthAgree)
                 0.02);
 }
 
-TEST_F(SimulateScene, theRegionIsTheInsideOfTheBin)
+TEST_F(SimulateScene, theRegionIsTheInsideOfTheBinAndAboveIt)
 {
   ASSERT_EQ(simulate("a", {"--count", "5", "--preset", "clean"}).status, 0);
   const std::string scene = folder_.file("a/bolt/clean-5-1/");
@@ -160,7 +160,7 @@ TEST_F(SimulateScene, theRegionIsTheInsideOfTheBin)
   const auto high = roi["max"].as<std::vector<double>>();
   EXPECT_NEAR(high[0], size[0] / 2 - 0.002, 1e-12);
   EXPECT_NEAR(high[1], size[1] / 2 - 0.002, 1e-12);
-  EXPECT_NEAR(high[2], size[2], 1e-12);
+  EXPECT_NEAR(high[2], 2 * size[2], 1e-12);
   EXPECT_NEAR(roi["min"].as<std::vector<double>>()[2], 0.003, 1e-12);
 }
 
