@@ -13,7 +13,7 @@ from .regression import PENALTY, kept_and_precision, reliability_bins
 from .terms import TERMS, code_of
 from .training import FOREIGN_SHIFTS, FOREIGN_WEIGHT, SETS
 
-THRESHOLDS = (0.5, 0.8, 0.9, 0.95)
+THRESHOLDS = (0.5, 0.8, 0.85, 0.9, 0.95)
 WITH_RIGHT_ONES = ("own", "shiny")
 
 
