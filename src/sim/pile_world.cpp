@@ -224,6 +224,7 @@ void PartPile::World::settle()
       rested[k] = rested[k] && move_m(start[k], pose(*parts_[k])) < kCreep_m * leniency;
     letSleep(rested);
   }
+  limitSleep(settings_.rest_speed_m_s);
 }
 
 /// Says which of the parts that are awake want to sleep, as Bullet looks at their speed only. With

@@ -90,6 +90,8 @@ ToolPart PartOptions::load(const std::string& output) const
 
 PpfModel trainedModel(const ToolPart& part)
 {
+  report("training " + part.description.model_id + ": " +
+         std::to_string(part.mesh.triangles.size()) + " triangles ...");
   const PartSymmetries symmetries = symmetriesOf(part.description, part.mesh);
   PpfModel model = PpfModel::train(part.mesh, symmetries.group, part.config.model);
   std::ostringstream line;

@@ -10,11 +10,15 @@
 #include "ppf_bin_picking/core/selection.hpp"
 #include "ppf_bin_picking/core/sparse_fit.hpp"
 
+#include "ppf_bin_picking/io/model_io.hpp"
+
 #include "bench_pile.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -179,8 +183,38 @@ void whole(State& state, const Input& input)
                                         [](const DetectedPose& pose) { return pose.reliable; }));
 }
 
+/// A whole detection of the part's pile, looking for more and more parts.
+void models(State& state)
+{
+  const char* const names[] = {"tee",   "cylinder", "box",   "bracket",
+                               "elbow", "plate",    "shaft", "bolt"};
+  static std::map<std::string, std::unique_ptr<BenchPart>> parts;
+  std::vector<const PpfModel*> loaded;
+  for (std::int64_t i = 0; i < state.range(0); ++i)
+  {
+    std::unique_ptr<BenchPart>& part = parts[names[i]];
+    if (!part) part = std::make_unique<BenchPart>(names[i]);
+    loaded.push_back(&part->model);
+  }
+  const Input& input = inputOf(names[0]);
+  const Detector detector(input.part.config);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(detector.detect(input.pile.cloud, loaded, input.pile.region));
+}
+
+/// Reading a model file.
+void loading(State& state, const Input& input)
+{
+  const std::string path = std::filesystem::temp_directory_path() / "measure_stages.ppf";
+  saveModel(path, input.part.model, 0);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(loadModel(path));
+  std::remove(path.c_str());
+}
+
 using Stage = void (*)(State&, const Input&);
 constexpr std::pair<const char*, Stage> kStages[] = {{"training", training},
+                                                     {"loading", loading},
                                                      {"preparation", preparation},
                                                      {"normals", normals},
                                                      {"sampling", sampling},
@@ -204,6 +238,7 @@ void addBenchmarks()
                                    [stage, part](State& state) { stage(state, inputOf(part)); })
           ->Unit(benchmark::kMillisecond);
     }
+  benchmark::RegisterBenchmark("models", models)->DenseRange(1, 8)->Unit(benchmark::kMillisecond);
 }
 }  // namespace
 }  // namespace ppf_bin_picking

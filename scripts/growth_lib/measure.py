@@ -1,0 +1,69 @@
+"""Times and memory of programs."""
+
+import json
+import os
+import re
+import statistics
+import subprocess
+import time
+
+from benchmark_lib.programs import PROGRAMS, BenchmarkError
+
+RUNS = 7  # of each detection; the first one counts as the first after start
+DISTRIBUTION = re.compile(r"detections: first ([\d.]+) ms, least [\d.]+, median ([\d.]+)")
+
+
+def run_measured(name, *arguments):
+    """Runs a program. Returns what it printed to stderr, seconds, and its largest resident size [MB]."""
+    command = [str(PROGRAMS / name), *map(str, arguments)]
+    start = time.monotonic()
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+        printed = process.stderr.read().decode()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise BenchmarkError(f"{' '.join(command)} failed: {printed.strip().splitlines()[-1]}")
+    return printed, time.monotonic() - start, usage.ru_maxrss / 1024
+
+
+def detect(scenes, model, scene, output, threads=0, part=None):
+    """Several detections of a scene.
+
+    Returns milliseconds of the first one and of the median, those of each stage of the last one, its reliable poses, and
+    the largest resident size [MB].
+    """
+    printed, _, resident_mb = run_measured(
+        "detect_poses",
+        *("--part", scenes.part_file(part) if part else scenes.part_file()),
+        *("--model", model, *scene, "--threads", threads, "--repeat", RUNS, "--output", output),
+    )
+    first, median = map(float, DISTRIBUTION.search(printed).groups())
+    result = json.loads(output.read_text())
+    return {
+        "first": first,
+        "ms": median,
+        "stages": result["stages_ms"],
+        "reliable": sum(pose["reliable"] for pose in result["poses"]),
+        "mb": resident_mb,
+    }
+
+
+def stage_rates(part_filter, output):
+    """What measure_stages says. Returns its benchmarks by name."""
+    run_measured(
+        "measure_stages",
+        f"--benchmark_filter={part_filter}",
+        f"--benchmark_out={output}",
+        "--benchmark_out_format=json",
+        "--benchmark_repetitions=3",
+        "--benchmark_report_aggregates_only=true",
+    )
+    found = json.loads(output.read_text())["benchmarks"]
+    return {one["run_name"]: one for one in found if one["aggregate_name"] == "median"}
+
+
+def slope(xs, ys):
+    """Of the least-squares line."""
+    mean_x, mean_y = statistics.mean(xs), statistics.mean(ys)
+    across = sum((x - mean_x) ** 2 for x in xs)
+    return sum((x - mean_x) * (y - mean_y) for x, y in zip(xs, ys)) / across

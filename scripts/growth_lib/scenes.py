@@ -1,0 +1,92 @@
+"""Scenes that differ in one thing: points of the cloud, parts in the bin, noise."""
+
+import shutil
+
+import numpy as np
+import yaml
+from PIL import Image
+
+from benchmark_lib.cases import Scene
+from benchmark_lib.detection import Bench
+
+PART = "bracket"
+COUNT = 16  # parts, where these are not what differs
+PRESET = "industrial"
+SEED = 401
+
+
+class Copy:
+    """A changed copy of a scene's folder, for detect_poses."""
+
+    def __init__(self, source, folder):
+        self.folder = folder
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source / "roi.yaml", folder / "roi.yaml")
+        self.camera = yaml.safe_load((source / "camera.yaml").read_text())
+        with Image.open(source / "depth.png") as image:
+            self.depth = np.array(image)
+
+    def write(self):
+        """Returns the arguments that name the scene to detect_poses."""
+        Image.fromarray(self.depth.astype(np.uint16)).save(self.folder / "depth.png")
+        lines = [f"{key}: {text(value)}\n" for key, value in self.camera.items()]
+        (self.folder / "camera.yaml").write_text("".join(lines))
+        return arguments(self.folder)
+
+
+def text(value):
+    """Without exponent, which the reader of cameras does not take."""
+    return f"{value:.9f}" if isinstance(value, float) else value
+
+
+def arguments(folder):
+    """How detect_poses is told a scene."""
+    return (
+        *("--depth", folder / "depth.png", "--camera", folder / "camera.yaml"),
+        *("--roi", folder / "roi.yaml"),
+    )
+
+
+class Scenes:
+    """Simulates what is needed and changes it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.bench = Bench(folder, {})
+
+    def simulate(self, scenes):
+        self.bench.simulate_all(scenes)
+
+    def standard(self, part=PART):
+        return Scene(part, COUNT, PRESET, SEED)
+
+    def part_file(self, part=PART):
+        return self.bench.part_folder(part) / "part.yaml"
+
+    def of_points(self, millions):
+        """The standard scene with another number of pixels, each the nearest one's."""
+        copy = Copy(self.bench.scene_path(self.standard()), self.folder / f"points-{millions}")
+        rows, columns = copy.depth.shape
+        scale = (millions * 1e6 / copy.depth.size) ** 0.5
+        new_rows, new_columns = round(rows * scale), round(columns * scale)
+        down = np.minimum((np.arange(new_rows) + 0.5) * rows / new_rows, rows - 1).astype(int)
+        right = np.minimum((np.arange(new_columns) + 0.5) * columns / new_columns, columns - 1)
+        copy.depth = copy.depth[np.ix_(down, right.astype(int))]
+        camera = copy.camera
+        camera["width"], camera["height"] = new_columns, new_rows
+        for axis, factor in (("x", new_columns / columns), ("y", new_rows / rows)):
+            camera[f"f{axis}"] *= factor
+            camera[f"c{axis}"] = (camera[f"c{axis}"] + 0.5) * factor - 0.5
+        return copy.write()
+
+    def of_count(self, count):
+        return arguments(self.bench.scene_path(Scene(PART, count, PRESET, SEED)))
+
+    def of_noise(self, noise_mm):
+        """The standard scene with Gaussian noise on its depth."""
+        copy = Copy(self.bench.scene_path(self.standard()), self.folder / f"noise-{noise_mm}")
+        levels = noise_mm / 1000 / copy.camera["depth_unit_m"]
+        noise = np.random.default_rng(SEED).normal(0, levels, copy.depth.shape)
+        seen = copy.depth > 0
+        copy.depth = np.where(seen, np.clip(np.rint(copy.depth + noise), 1, 65535), 0)
+        return copy.write()
