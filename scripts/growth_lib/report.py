@@ -89,7 +89,9 @@ def rate_table(rates):
         if stage == "voting":
             rows.append([name, f"{one['real_time']:.1f}", f"{one['votes/s'] / 1e9:.2f} G votes/s"])
         elif stage == "verification":
-            rows.append([name, f"{one['real_time']:.1f}", f"{one['pixels/s'] / 1e6:.1f} M pixels/s"])
+            rows.append(
+                [name, f"{one['real_time']:.1f}", f"{one['pixels/s'] / 1e6:.1f} M pixels/s"]
+            )
         elif stage == "loading":
             rows.append([name, f"{one['real_time']:.1f}", "of the model file"])
     return table(["stage", "ms", "rate"], rows)

@@ -18,22 +18,22 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = 0.721;
+constexpr double kIntercept = -0.548;
 
 std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.088, 2.210, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.332, 0.456, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.856, -1.166, UnreliableReason::kSlippage},
-      {pose.slide_share, -1.353, 0.334, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -0.322, 0.193, UnreliableReason::kSpread},
-      {pose.looked_through, -19.774, 0.013, UnreliableReason::kLowScore},
-      {pose.outline_broken, -0.337, 0.213, UnreliableReason::kLowScore},
-      {pose.claimed, -16.677, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.189, 3.280, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.639, 0.774, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.016, 2.260, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.605, 0.455, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.773, -1.156, UnreliableReason::kSlippage},
+      {pose.slide_share, -1.481, 0.332, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.733, 0.194, UnreliableReason::kSpread},
+      {pose.looked_through, -18.900, 0.014, UnreliableReason::kLowScore},
+      {pose.outline_broken, -0.375, 0.214, UnreliableReason::kLowScore},
+      {pose.claimed, -16.442, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.547, 3.304, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.796, 0.785, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace
