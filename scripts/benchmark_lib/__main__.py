@@ -151,6 +151,7 @@ def picture_scene(options, part):
 
 def report(options, bench, figures):
     """Writes the page and its pictures."""
+    facts = run_facts(options, bench)  # before a file differs from the commit
     images = options.report.parent / "images/benchmark"
     main = next(iter(bench.configs))
     pictures = {}
@@ -158,7 +159,6 @@ def report(options, bench, figures):
         draw_scene(bench, main, picture_scene(options, part), images / f"{part}.jpg")
         pictures[part] = f"images/benchmark/{part}.jpg"
     draw_curves(figures["variants"], options.parts, images / "curves.png")
-    facts = run_facts(options, bench)
     text = write_report(figures, facts, pictures, "images/benchmark/curves.png")
     options.report.write_text(text)
     print(f"Wrote {options.report}")

@@ -91,13 +91,13 @@ def work(options):
         "parts": measure_parts(scenes, output),
         "rates": stage_rates("voting/|verification|models|loading", folder / "stages.json"),
     }
-    picture = options.report.parent / "images/growth.png"
-    draw(figures, picture)
-    facts = {
+    facts = {  # before a file differs from the commit
         "command": " ".join(["scripts/growth", *sys.argv[1:]]),
         "commit": commit(),
         "machine": machine(),
     }
+    picture = options.report.parent / "images/growth.png"
+    draw(figures, picture)
     options.report.write_text(write_page(facts, figures, "images/growth.png"))
     print(f"Wrote {options.report}")
     return 0

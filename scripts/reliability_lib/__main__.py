@@ -74,6 +74,7 @@ def run_facts(options, plan):
 
 def report(options, plan, poses):
     """Fits, prints the figures, writes the page and its picture."""
+    facts = run_facts(options, plan)  # before a file differs from the commit
     fitted, predicted = fit_all(poses)
     drawn = diagrams(poses, predicted)
     print(code_of(*fitted))
@@ -81,7 +82,6 @@ def report(options, plan, poses):
     print(diagram_table(drawn))
     picture = "images/reliability.png"
     draw_diagram(drawn, options.report.parent / picture)
-    facts = run_facts(options, plan)
     options.report.write_text(write_page(facts, poses, fitted, predicted, drawn, picture))
     print(f"Wrote {options.report}")
 
