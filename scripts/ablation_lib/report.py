@@ -82,8 +82,11 @@ def settings_text(row):
 
 
 def decisions(rows):
-    """A line for each row."""
-    return "".join(f"- `{row.name}` ({settings_text(row)}): {row.decision}\n" for row in rows)
+    """A line for each row; what was decided, where it was."""
+    return "".join(
+        f"- `{row.name}` ({settings_text(row)}){': ' if row.decision else ''}{row.decision}\n"
+        for row in rows
+    )
 
 
 def introduction(facts):
@@ -112,7 +115,7 @@ def write_page(facts, rows, figures):
         [
             introduction(facts),
             step_table(rows, figures),
-            "## Decisions\n\n" + decisions(rows),
+            "## Settings and decisions\n\n" + decisions(rows),
             "## The evaluation scenes, seed by seed\n\n" + seed_table(bins),
             "## ... and by part\n\nMeans over the seeds.\n\n" + part_table(bins),
         ]

@@ -28,7 +28,11 @@ def arguments():
         description="Tests on simulated scenes what the mismatch test claims; writes a report. What was done before is not done again.",
     )
     parser.add_argument(
-        "--seeds", type=int, metavar="N", help="no more than N seeds a part: a trial"
+        "--seeds",
+        type=int,
+        choices=range(1, 51),
+        metavar="N",
+        help="no more than N seeds a part (1 to 50): a trial",
     )
     parser.add_argument("--folder", type=Path, default=Path("build/claim"))
     parser.add_argument(

@@ -40,6 +40,8 @@ class Ranking:
         right = np.cumsum(weight * self.right)
         found = np.cumsum(weight)
         needed = np.asarray(recalls) * np.sum(times * self.targets)
+        if len(right) == 0:
+            return np.full(len(needed), np.nan)
         place = np.searchsorted(right, needed - 1e-9)
         inside = np.minimum(place, len(right) - 1)
         return np.where(place < len(right), right[inside] / found[inside], np.nan)

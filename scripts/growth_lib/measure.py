@@ -22,11 +22,12 @@ def run_measured(name, *arguments):
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        raise BenchmarkError(f"{' '.join(command)} failed: {printed.strip().splitlines()[-1]}")
+        last = (printed.strip().splitlines() or [f"it ended with {process.returncode}"])[-1]
+        raise BenchmarkError(f"{' '.join(command)} failed: {last}")
     return printed, time.monotonic() - start, usage.ru_maxrss / 1024
 
 
-def detect(scenes, model, scene, output, threads=0, part=None):
+def detect(scenes, model, scene, output, threads=2, part=None):
     """Several detections of a scene.
 
     Returns milliseconds of the first one and of the median, those of each stage of the last one, its reliable poses, and

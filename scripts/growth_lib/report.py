@@ -105,7 +105,7 @@ Written by
     {facts['command']}
 
 on simulated scenes: {COUNT} parts (`{PART}` where one part stands for all), sensor {PRESET}, seed {SEED}, one thing changed at a time. Times are
-medians of {RUNS} detections of one process, all cores, unless said. Commit {facts['commit']}; {facts['machine']}.
+medians of {RUNS} detections of one process, two threads, unless said. Commit {facts['commit']}; {facts['machine']}.
 """
 
 

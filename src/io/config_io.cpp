@@ -88,7 +88,8 @@ DetectorConfig withSettings(DetectorConfig config, const YAML::Node& settings,
 DetectorConfig loadDetectorConfig(const std::string& path)
 {
   const YAML::Node settings = loadYaml(path);
-  if (settings.IsMap() && settings["detector"])
+  if (settings.IsMap() &&
+      (settings["detector"] || settings["parts"] || settings["region_of_interest"]))
     throw InputError(path +
                      " holds the parameters of a node, with the settings below 'detector': give a "
                      "file with the settings at its top, such as config/detector.yaml");

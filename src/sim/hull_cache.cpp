@@ -133,8 +133,9 @@ void writeWhole(const fs::path& file, const std::string& bytes)
   if (stream && !error) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw std::runtime_error(file.parent_path().string() +
-                           " cannot be written: give a folder for the cache that can");
+  throw std::invalid_argument(file.parent_path().string() +
+                              " is no folder that can be written: give another one for the "
+                              "convex pieces");
 }
 }  // namespace
 

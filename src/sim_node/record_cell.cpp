@@ -1,5 +1,6 @@
 /// @file record_cell: a simulated bin as a bag that replay.launch plays. No ROS master is needed.
 #include "ppf_bin_picking/io/file_bytes.hpp"
+#include "ppf_bin_picking/io/part_io.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include "cell_messages.hpp"
@@ -66,6 +67,9 @@ void record(const Options& options)
 {
   ppf_bin_picking::requireWritable(options.output);
   const CellParams params = paramsOf(options);
+  ppf_bin_picking::requireNoInput(
+      options.output,
+      {options.config, params.part, ppf_bin_picking::loadPart(params.part).mesh_file});
   const auto loaded = loadCellPart(params);
   for (const std::string& warning : loaded.warnings)
     ppf_bin_picking::report("warning: " + warning);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace ppf_bin_picking
 {
@@ -67,9 +68,34 @@ PartEvaluation evaluatePart(const PartFolder& folder, const Options& options,
   return evaluation;
 }
 
+/// Every file of the data set, and every result that is looked for.
+std::vector<std::string> inputsOf(const Options& options)
+{
+  std::vector<std::string> inputs;
+  const auto addFiles = [&](const std::string& folder)
+  {
+    for (const auto& item : std::filesystem::directory_iterator(folder))
+      inputs.push_back(item.path().string());
+  };
+  for (const PartFolder& folder : listDataset(options.dataset))
+  {
+    addFiles(folder.path);
+    for (const std::string& scene : folder.scenes)
+    {
+      addFiles(folder.path + "/" + scene);
+      inputs.push_back(options.results + "/" + folder.name + "/" + scene + ".json");
+    }
+  }
+  return inputs;
+}
+
 void evaluatePoses(const Options& options)
 {
-  if (!options.json.empty()) requireWritable(options.json);
+  if (!options.json.empty())
+  {
+    requireWritable(options.json);
+    requireNoInput(options.json, inputsOf(options));
+  }
   std::vector<PartEvaluation> parts;
   std::vector<std::string> missing;
   std::size_t scenes = 0;

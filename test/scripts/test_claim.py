@@ -23,6 +23,9 @@ class PrecisionAtRecall(unittest.TestCase):
         np.testing.assert_allclose(ranked.precision_at([0.25, 0.5]), [1, 2 / 4])
         self.assertTrue(math.isnan(ranked.precision_at([0.75])[0]))
 
+    def test_is_nothing_without_poses(self):
+        self.assertTrue(math.isnan(ranking((3, [])).precision_at([0.3])[0]))
+
     def test_counts_scenes_as_often_as_told(self):
         ranked = ranking((1, [(0.9, True)]), (1, [(0.95, False), (0.1, True)]))
         self.assertAlmostEqual(ranked.precision_at([1.0], np.array([3, 1]))[0], 4 / 5)

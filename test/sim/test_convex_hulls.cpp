@@ -208,7 +208,7 @@ TEST_F(HullCache, namesAFolderThatCannotBeWritten)
     cachedConvexHulls(angleMesh(), folder_.string());
     FAIL() << "no error";
   }
-  catch (const std::runtime_error& error)
+  catch (const std::invalid_argument& error)
   {
     EXPECT_NE(std::string(error.what()).find(folder_.string()), std::string::npos);
   }

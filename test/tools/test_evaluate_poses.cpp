@@ -267,5 +267,20 @@ TEST_F(EvaluatePoses, refusesABadDataSet)
   folder_.write("data/tetra/part.yaml", "unit: cm\n");
   expectRefused("unit is 'cm'");
 }
+
+TEST_F(EvaluatePoses, refusesAnOutputThatIsAnInput)
+{
+  for (const std::string input : {"data/tetra/part.yaml", "data/tetra/model.stl",
+                                  "data/tetra/scene-2/gt.json", "results/tetra/scene-1.json"})
+  {
+    const std::string before = contentOf(folder_.file(input));
+    expectRefusal(
+        runBuiltTool("evaluate_poses",
+                     {folder_.file("data"), folder_.file("results"), "--json", folder_.file(input)},
+                     folder_),
+        "evaluate_poses", "is both an input and the output");
+    EXPECT_EQ(contentOf(folder_.file(input)), before);
+  }
+}
 }  // namespace
 }  // namespace ppf_bin_picking
