@@ -76,6 +76,9 @@ Variants, of one pipeline; all refine, verify and compete alike:
 Each variant ranks all its poses, those that it calls reliable first, by the number that it trusts: the reliability for `default`, the score for the
 others. Precision at a recall is that of the shortest beginning of this list that holds so many of the targets (parts at least half
 visible). Intervals hold 95 % of {REPEATS} bootstrap draws of scenes, the same for both variants.
+
+Two things are mixed in `default` less the others: which poses are turned down, and the number that ranks them. The reliability was fitted on other
+scenes, but of these same parts. docs/decisions.md has the comparison with every variant ranked by the same number.
 """
 
 
