@@ -14,7 +14,7 @@ class Row:
 
 ROWS = (
     Row("default", {}, "the detector as it is"),
-    Row("original", {"clustering": "greedy", "mismatch_test": False, "min_score": 0.5}),
+    Row("original", {"clustering": "greedy", "mismatch_test": False}),
     Row("greedy", {"clustering": "greedy"}),
     Row("one-a-cluster", {"poses_per_cluster": 1}),
     Row("no-tests", {"mismatch_test": False}),
@@ -26,6 +26,7 @@ ROWS = (
     Row("margin-0.1", {"min_margin": 0.1}),
     Row("no-reliability", {"min_reliability": 0}),
     Row("reliability-0.95", {"min_reliability": 0.95}),
+    Row("score-0.4", {"min_score": 0.4}),
     Row("no-icp", {"icp_iterations": 0}),
     Row("icp-4", {"icp_iterations": 4}),
     Row("icp-24", {"icp_iterations": 24}),

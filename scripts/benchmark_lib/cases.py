@@ -17,15 +17,14 @@ QUICK_LOOP_COUNT = 3
 # Each variant of the detector with the settings that differ from the defaults.
 VARIANTS = {
     "default": {},
-    "original": {"clustering": "greedy", "mismatch_test": False, "min_score": 0.5},
-    "coverage": {"mismatch_test": False, "min_score": 0.5},
+    "original": {"clustering": "greedy", "mismatch_test": False},
+    "coverage": {"mismatch_test": False},
     "spread": {
         "poses_per_cluster": 1,
         "max_slide_share": 1.0,
         "max_outline_broken": 1.0,
         "min_margin": -1.0,
         "min_reliability": 0,
-        "min_score": 0.5,
     },
 }
 VARIANT_TEXTS = {

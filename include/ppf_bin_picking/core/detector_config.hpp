@@ -72,7 +72,7 @@ struct DetectorConfig
   int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
   double depth_gate_rel = 0.02;      ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;      ///< ... and within this turn of the normal. (0, pi/2].
-  double min_score = 0.4;            ///< Poses scoring less are not reliable. [0, 1].
+  double min_score = 0.5;            ///< Poses scoring less are not reliable. [0, 1].
   double min_visible_share = 0.2;    ///< Poses showing less of their surface neither. [0, 1].
 
   int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
