@@ -14,14 +14,21 @@ std::string percent(double share)
   return std::to_string(std::lround(100 * share)) + " %";
 }
 
+std::string rivalOf(const DetectedPose& pose)
+{
+  const std::string words = "another pose explains the same points ";
+  return pose.margin < 0
+             ? words + "better, with " + percent(-pose.margin) + " more evidence"
+             : words + "almost as well, with " + percent(pose.margin) + " less evidence";
+}
+
 /// What pulled the reliability down.
 std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
 {
   switch (weakest)
   {
     case UnreliableReason::kRunnerUp:
-      return "another pose explains the same points almost as well, with " + percent(pose.margin) +
-             " less evidence";
+      return rivalOf(pose);
     case UnreliableReason::kSlippage:
       return "what is seen of it hardly keeps it from sliding or turning";
     case UnreliableReason::kSpread:
@@ -59,9 +66,7 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
                 "), so that nothing ends where the part ends"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
-            "another pose explains the same points almost as well: it lacks " +
-                percent(pose.margin) + " of the evidence (min_margin " +
-                percent(config.min_margin) + ")"};
+            rivalOf(pose) + " (min_margin " + percent(config.min_margin) + ")"};
   return {};
 }
 }  // namespace

@@ -90,9 +90,10 @@ DetectorConfig loadDetectorConfig(const std::string& path)
   const YAML::Node settings = loadYaml(path);
   if (settings.IsMap() &&
       (settings["detector"] || settings["parts"] || settings["region_of_interest"]))
-    throw InputError(path +
-                     " holds the parameters of a node, with the settings below 'detector': give a "
-                     "file with the settings at its top, such as config/detector.yaml");
+    throw InputError(
+        path +
+        " holds the parameters of a node; the settings are those below its 'detector': give a "
+        "file with the settings at its top, such as config/detector.yaml");
   return withSettings(DetectorConfig(), settings, path);
 }
 

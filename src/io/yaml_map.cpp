@@ -4,6 +4,8 @@
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/key_check.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -56,8 +58,11 @@ YAML::Node loadYaml(const std::string& path)
   }
   catch (const YAML::Exception& error)
   {
+    std::string reason = error.msg;  // may quote the file
+    std::replace_if(
+        reason.begin(), reason.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
     throw InputError(path + ": line " + std::to_string(error.mark.line + 1) +
-                     " is not valid YAML (" + error.msg + "): mend it");
+                     " is not valid YAML (" + reason + "): mend it");
   }
 }
 

@@ -216,7 +216,7 @@ void PoseChecker::addVerdict(PoseCheck& check) const
   const auto doubt = [&](const std::string& text)
   { check.verdict += (check.verdict.empty() ? "" : ", ") + text; };
   if (check.rmse_m > kMaxRmseRel * gate_m_) doubt("fits badly");
-  if (check.turned_m >= 0 && check.turned_m <= check.both_ways_m)
+  if (check.turned_m >= 0 && check.turned_m < check.both_ways_m)
     doubt("fits better turned " + check.turn);
   if (check.looked_through > kMaxLookedThrough) doubt("looked through");
   if (check.overlap > kMaxOverlap) doubt("inside another part");

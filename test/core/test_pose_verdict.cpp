@@ -55,6 +55,8 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
       {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kLowScore,
        "max_outline_broken"},
       {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
+      {[](DetectedPose& pose) { pose.margin = -0.1; }, UnreliableReason::kRunnerUp,
+       "better, with 10 % more evidence"},
       {[](DetectedPose& pose) { pose.score = 0.1; }, UnreliableReason::kLowScore, "min_score"},
       {[](DetectedPose& pose) { pose.visible_fraction = 0.1; }, UnreliableReason::kLowScore,
        "min_visible_share"},

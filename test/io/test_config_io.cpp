@@ -73,10 +73,11 @@ TEST(DetectorConfigFile, isNotTheParametersOfANode)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("cell.yaml", "detector: {lambda: 0.5}\n");
-  EXPECT_EQ(inputError([&] { loadDetectorConfig(path); }),
-            path +
-                " holds the parameters of a node, with the settings below 'detector': give a "
-                "file with the settings at its top, such as config/detector.yaml");
+  EXPECT_EQ(
+      inputError([&] { loadDetectorConfig(path); }),
+      path +
+          " holds the parameters of a node; the settings are those below its 'detector': give a "
+          "file with the settings at its top, such as config/detector.yaml");
 }
 
 TEST(DetectorConfigFile, namesAMistypedValue)
