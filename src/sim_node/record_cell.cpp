@@ -1,5 +1,6 @@
 /// @file record_cell: a simulated bin as a bag that replay.launch plays. No ROS master is needed.
 #include "ppf_bin_picking/io/file_bytes.hpp"
+#include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/part_io.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
@@ -39,6 +40,8 @@ CellParams paramsOf(const Options& options)
 {
   YAML::Node node = options.config.empty() ? YAML::Node(YAML::NodeType::Map)
                                            : ppf_bin_picking::loadYaml(options.config);
+  if (options.config.empty() && options.part.empty())
+    throw ppf_bin_picking::InputError("no part given: add --part, or --config with a part");
   if (!options.part.empty()) node["part"] = options.part;
   if (options.count >= 0) node["count"] = options.count;
   if (options.seed >= 0) node["seed"] = options.seed;
@@ -73,6 +76,8 @@ void record(const Options& options)
   const auto loaded = loadCellPart(params);
   for (const std::string& warning : loaded.warnings)
     ppf_bin_picking::report("warning: " + warning);
+  ppf_bin_picking::report("dropping " + std::to_string(params.count) + " parts of " +
+                          loaded.model_id + " ...");
   SimulatedCell cell(params.cell, loaded.part, static_cast<std::uint32_t>(params.seed));
   cell.refill(params.count);
   ppf_bin_picking::report(std::to_string(params.count) + " parts of " + loaded.model_id +

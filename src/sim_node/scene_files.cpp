@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -127,6 +128,19 @@ std::string truthJson(const std::vector<PartTruth>& parts, const Eigen::Isometry
       {"bin", {{"pose", rowMajor(T_camera_bin)}, {"size", {size_m.x(), size_m.y(), size_m.z()}}}}};
   return root.dump() + "\n";
 }
+/// Paths and contents of a data set's part; nothing where the part file is the data set's own.
+std::map<std::string, std::string> partFiles(const std::string& folder, const PartDescription& part)
+{
+  const std::string part_file = folder + "/part.yaml";
+  std::error_code none;  // of a part file that does not exist
+  if (fs::equivalent(part_file, part.source, none)) return {};
+  const std::string mesh = "model" + fs::path(part.mesh_file).extension().string();
+  YAML::Node yaml = loadYaml(part.source);
+  yaml["mesh"] = mesh;
+  std::ostringstream text;
+  text << yaml << "\n";
+  return {{part_file, text.str()}, {folder + "/" + mesh, readFile(part.mesh_file, kMaxMeshBytes)}};
+}
 }  // namespace
 
 void makeFolder(const std::string& path)
@@ -137,16 +151,19 @@ void makeFolder(const std::string& path)
     throw InputError(path + " cannot be made: give a folder that can be written");
 }
 
+void requireSamePart(const std::string& folder, const PartDescription& part)
+{
+  for (const auto& [path, bytes] : partFiles(folder, part))
+    if (fs::exists(path) && readFile(path, kMaxMeshBytes) != bytes)
+      throw InputError(path + " belongs to another part, or to another state of this one: give " +
+                       "another output, or remove the folder");
+}
+
 void writePart(const std::string& folder, const PartDescription& part)
 {
   makeFolder(folder);
-  const std::string mesh = "model" + fs::path(part.mesh_file).extension().string();
-  YAML::Node yaml = loadYaml(part.source);
-  yaml["mesh"] = mesh;
-  std::ostringstream text;
-  text << yaml << "\n";
-  writeFile(folder + "/" + mesh, readFile(part.mesh_file, kMaxMeshBytes));
-  writeFile(folder + "/part.yaml", text.str());
+  for (const auto& [path, bytes] : partFiles(folder, part))
+    writeFile(path, bytes);
 }
 
 void writeScene(const std::string& folder, const SceneShot& shot)

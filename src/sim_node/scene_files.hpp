@@ -24,7 +24,12 @@ namespace ppf_bin_picking
 /// @throw InputError if it cannot be made.
 void makeFolder(const std::string& path);
 
-/// Copies part file and mesh into a folder, as part.yaml that names the mesh beside it.
+/// @throw InputError if a folder holds another part than writePart() would write there: scenes of
+/// it would be judged by the wrong mesh.
+void requireSamePart(const std::string& folder, const PartDescription& part);
+
+/// Copies part file and mesh into a folder, as part.yaml that names the mesh beside it. The
+/// folder's own part file stays as it is.
 /// @throw InputError if a file cannot be read or written.
 void writePart(const std::string& folder, const PartDescription& part);
 

@@ -74,7 +74,9 @@ void simulateScene(const Options& options)
   const PartDescription part = loadPart(options.part);
   const TriangleMesh mesh = meshOf(part);
   const std::string part_folder = options.output + "/" + part.model_id;
+  requireSamePart(part_folder, part);
   makeFolder(part_folder);
+  report("dropping " + std::to_string(options.count) + " parts of " + part.model_id + " ...");
   const std::vector<Eigen::Isometry3d> T_bin_parts = pileOf(mesh, options);
   writePart(part_folder, part);
   for (const std::string& preset : options.presets)

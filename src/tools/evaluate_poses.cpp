@@ -130,10 +130,10 @@ int main(int argc, char** argv)
       ->required();
   app.add_option("--threshold", options.rules.threshold_rel,
                  "Share of the diameter below which the MSSD of a right pose lies; 0.1")
-      ->check(CLI::Range(1e-6, 1.0));
+      ->check(numberWithin(1e-6, 1));
   app.add_option("--min-visibility", options.rules.min_visibility,
                  "Visible share from which on an object is to be found; 0.5")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(numberWithin(0, 1));
   app.add_option("--json", options.json, "Figures, curves and the verdict on each pose to write");
   app.footer(columnHelp());
   return runTool(app, argc, argv, [&] { evaluatePoses(options); });

@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/io/depth_io.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/mesh_io.hpp"
+#include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -60,6 +61,18 @@ void requireNoInput(const std::string& output, const std::vector<std::string>& i
     if (std::filesystem::equivalent(output, input, none))
       throw InputError(output + " is both an input and the output: give the output another name");
   }
+}
+
+CLI::Validator numberWithin(double low, double high)
+{
+  const auto problem = [low, high](const std::string& text)
+  {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high)
+      return std::string();
+    return text + " is no number from " + plainDecimal(low) + " to " + plainDecimal(high);
+  };
+  return {problem, "NUMBER"};
 }
 
 void report(const std::string& line)

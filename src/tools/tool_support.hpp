@@ -26,6 +26,9 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& t
 /// not exist, and empty ones, are equal to none.
 void requireNoInput(const std::string& output, const std::vector<std::string>& inputs);
 
+/// Allows numbers from low to high, and unlike CLI::Range no NaN.
+CLI::Validator numberWithin(double low, double high);
+
 /// One line of progress on stderr.
 void report(const std::string& line);
 

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """A small bag of each preset, recorded now, through replay.launch: no reliable pose contradicts the bag's truth."""
+import filecmp
 import hashlib
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -24,9 +26,9 @@ DIAMETER = 0.09  # of the bracket, about; it has no symmetry
 SHOTS = 2
 
 
-def record(output, **options):
+def record(output, config=CONFIG, **options):
     tool = roslib.packages.find_node("ppf_bin_picking", "record_cell")[0]
-    command = [tool, "--config", CONFIG, "--part", PART, "--output", output]
+    command = [tool, "--config", config, "--part", PART, "--output", output]
     command += [text for name, value in options.items() for text in ("--" + name, str(value))]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
@@ -111,6 +113,14 @@ class RecordingsTest(unittest.TestCase):
         made = record("/nowhere/cell.bag", count=0)
         self.assertEqual(made.returncode, 2)
         self.assertIn("/nowhere/cell.bag", made.stderr)
+
+    def test_its_configuration_is_not_written_over(self):
+        config = self.bag + ".yaml"
+        shutil.copyfile(CONFIG, config)
+        made = record(config, config=config, count=0)
+        self.assertEqual(made.returncode, 2)
+        self.assertIn("is both an input and the output", made.stderr)
+        self.assertTrue(filecmp.cmp(CONFIG, config, shallow=False))
 
 
 if __name__ == "__main__":

@@ -184,6 +184,29 @@ TEST_F(SimulateScene, theOtherProgramsReadIt)
   EXPECT_GT(json["summary"]["bolt"]["right"], 0);
 }
 
+TEST_F(SimulateScene, keepsADataSetsPart)
+{
+  ASSERT_EQ(simulate("a", {"--count", "2", "--preset", "clean"}).status, 0);
+  const std::string part = folder_.file("a/bolt/part.yaml");
+  const std::string mesh = folder_.file("a/bolt/model.stl");
+  const std::string before = contentOf(part), mesh_before = contentOf(mesh);
+  const std::vector<std::string> more = {"--count", "2",        "--seed",
+                                         "2",       "--output", folder_.file("a")};
+  const auto from = [&](const std::string& file)
+  {
+    std::vector<std::string> all = {"--part", file};
+    all.insert(all.end(), more.begin(), more.end());
+    return runBuiltTool("simulate_scene", all, folder_);
+  };
+  EXPECT_EQ(from(part).status, 0);
+  EXPECT_EQ(contentOf(part), before);
+  const std::string other = folder_.write(
+      "other/part.yaml", "unit: mm\nmodel_id: bolt\nmesh: " + mesh + "\nsymmetries_discrete: []\n");
+  expectRefusal(from(other), "simulate_scene", "belongs to another part");
+  EXPECT_EQ(contentOf(part), before);
+  EXPECT_EQ(contentOf(mesh), mesh_before);
+}
+
 TEST_F(SimulateScene, refusesBadArguments)
 {
   const auto expect_refused =

@@ -216,12 +216,20 @@ TEST_F(CommandLine, refusesBadFiles)
 
 TEST_F(CommandLine, refusesAnOutputThatIsAnInput)
 {
-  const auto contents = [&] {
-    return std::vector<std::string>{readFile(depth_, 1 << 20), readFile(mesh_, 1 << 20)};
+  const std::string config = folder_.write("c.yaml", "lambda: 0.5\n");
+  ASSERT_EQ(run("train_model", {"--part", part_, "--output", model_}).status, 0);
+  const std::vector<std::string> inputs = {part_, mesh_, depth_, camera_, roi_, config, model_};
+  const auto contents = [&]
+  {
+    std::vector<std::string> bytes;
+    for (const std::string& input : inputs)
+      bytes.push_back(readFile(input, std::size_t{1} << 28));
+    return bytes;
   };
   const std::vector<std::string> before = contents();
-  const std::vector<std::string> scene = {"--part", part_, "--depth", depth_, "--camera", camera_};
-  for (const std::string& input : {part_, depth_, camera_, mesh_})
+  const std::vector<std::string> scene = {"--part", part_, "--depth", depth_, "--camera", camera_,
+                                          "--roi",  roi_,  "--model", model_, "--config", config};
+  for (const std::string& input : inputs)
   {
     std::vector<std::string> arguments = scene;
     arguments.insert(arguments.end(), {"--output", input});
@@ -230,6 +238,10 @@ TEST_F(CommandLine, refusesAnOutputThatIsAnInput)
   std::filesystem::create_symlink(mesh_, folder_.file("link.ppf"));
   expectRefused("train_model", {"--part", part_, "--output", folder_.file("link.ppf")},
                 "is both an input and the output");
+  ASSERT_EQ(run("detect_poses", detect()).status, 0);
+  expectRefusal(run("check_poses", {result_, "--part", part_, "--depth", depth_, "--camera",
+                                    camera_, "--image", result_}),
+                "check_poses", "is both an input and the output");
   EXPECT_EQ(contents(), before);
 }
 

@@ -191,6 +191,8 @@ TEST_F(EvaluatePoses, refusesBadArguments)
   refused({data}, "results is required");
   refused({data, results, "--threshold", "0"}, "--threshold");
   refused({data, results, "--min-visibility", "2"}, "--min-visibility");
+  refused({data, results, "--min-visibility", "nan"}, "nan is no number from 0 to 1");
+  refused({data, results, "--threshold", "nan"}, "nan is no number from 0.000001 to 1");
   refused({data, results, "--json", folder_.file("none/a.json")}, "cannot be written");
   refused({folder_.file("none"), results}, "is no folder that can be read");
   refused({results, results}, "holds no <part>/part.yaml");
