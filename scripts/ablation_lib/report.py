@@ -97,11 +97,11 @@ One setting is changed at a time; everything else stays as config/detector.yaml 
 
     {facts['command']}
 
-which keeps what is done in `{facts['folder']}` and `build/benchmark`. Commit {facts['commit']}; {facts['machine']}.
+which keeps what is done in `{facts['folder']}`. Commit {facts['commit']}; {facts['machine']}.
 
 - AP, P, R (precision and recall of the reliable poses): the scenes of `data/bins`, mean over {facts['seeds']} copies with Gaussian noise of
   {NOISE_M * 1000:g} mm added to their depth; the detector itself draws no random numbers. Judged by `evaluate_poses`.
-- own: the scenes of scripts/benchmark with {facts['fill']} parts in the bin, all parts and sensors.
+- own: simulated scenes of each of the package's parts, {facts['fill']} in the bin, three sensors, seed {facts['own_seed']}: not those of scripts/benchmark.
 - pins: reliable poses on the real scan's bin of pins (about 36 lie there), how many of them `check_poses` finds suspicious, and the reliable poses in
   the three bins beside it, where no pin lies and every pose is wrong.
 - time: of a whole detection, over that of the first row; medians of the first two sets, their geometric mean.

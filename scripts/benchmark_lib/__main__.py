@@ -10,7 +10,7 @@ from . import cases
 from .closed_loop import run_loops
 from .detection import Bench, write_configs
 from .pictures import draw_curves, draw_scene
-from .programs import BenchmarkError, commit, machine, run_to_end
+from .programs import BenchmarkError, provenance, run_script
 from .report import write_report
 
 
@@ -65,11 +65,11 @@ def choose(options):
 
 
 def views_of(scenes):
-    """Groups of scenes by sensor and by fill."""
+    """Groups of scenes by sensor, then by fill."""
     groups = {}
-    for scene in scenes:
-        groups.setdefault(scene.preset, []).append(scene)
-        groups.setdefault(f"{scene.count} parts", []).append(scene)
+    for name_of in (lambda scene: scene.preset, lambda scene: f"{scene.count} parts"):
+        for scene in scenes:
+            groups.setdefault(name_of(scene), []).append(scene)
     return groups
 
 
@@ -129,14 +129,11 @@ def difference(first, second, place="figures"):
 
 def run_facts(options, bench):
     """What the report says about how it was made."""
-    words = [word for word in sys.argv[1:] if word != "--check"]
     return {
-        "command": " ".join(["scripts/benchmark", *words]),
+        **provenance("scripts/benchmark"),
         "folder": options.folder,
         "fills": ", ".join(map(str, options.fills)),
         "presets": ", ".join(options.presets),
-        "commit": commit(),
-        "machine": machine(),
         "loop_count": options.loop_count,
         "picture": picture_scene(options, options.parts[0]).name,
     }
@@ -186,10 +183,5 @@ def work(options):
     return 0
 
 
-def main():
-    options = arguments()
-    return run_to_end("scripts/benchmark", lambda: work(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_script("scripts/benchmark", arguments, work))

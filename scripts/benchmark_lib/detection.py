@@ -47,6 +47,8 @@ class Bench:
         for scene in missing:
             stamp_of(self.scene_path(scene)).unlink(missing_ok=True)
         first = missing[0]
+        for stale in ("part.yaml", "model.stl"):  # of another state of the part
+            (self.part_folder(first.part) / stale).unlink(missing_ok=True)
         run(
             "simulate_scene",
             *("--part", PACKAGE / "config/parts" / f"{first.part}.yaml"),

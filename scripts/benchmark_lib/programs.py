@@ -31,6 +31,18 @@ def run_to_end(command, body):
     return status
 
 
+def run_script(script, arguments, work):
+    """A script from its command line to its exit status."""
+    options = arguments()
+    return run_to_end(script, lambda: work(options))
+
+
+def provenance(script):
+    """What a report says about how it was made. To be called before the report makes a file differ from the commit."""
+    words = [word for word in sys.argv[1:] if word != "--check"]
+    return {"command": " ".join([script, *words]), "commit": commit(), "machine": machine()}
+
+
 def commit():
     """Of the working copy, with a mark if files differ from it."""
     described = subprocess.run(

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from benchmark_lib.cases import VARIANTS, Scene
 from benchmark_lib.detection import Bench, write_configs
-from benchmark_lib.programs import commit, machine, run_to_end
+from benchmark_lib.programs import provenance, run_script
 
 from .precision import Ranking
-from .report import write_page
+from .report import NUMBERS, write_page
 
 # Parts on which surfaces slide over one another or hide what tells poses apart, and parts on which they do not.
 GROUPS = {
@@ -49,9 +49,8 @@ def scenes_of(group, most):
     return [Scene(part, FILL, PRESET, seed) for part in GROUPS[group] for seed in seeds]
 
 
-def ranking(bench, variant, judged, scenes):
-    """All poses of a variant: reliable ones first; then by the number that it trusts."""
-    number = "reliability" if variant == "default" else "score"
+def ranking(bench, variant, judged, scenes, number):
+    """All poses of a variant: reliable ones first; then by a number of each."""
     by_name = {
         (part, scene["scene"]): scene
         for part, judged_scenes in judged["scenes"].items()
@@ -78,14 +77,14 @@ def ranking(bench, variant, judged, scenes):
 
 
 def measure(bench, groups):
-    """Of each group and variant the ranking and what evaluate_poses says."""
+    """Of each group and variant the rankings by number and what evaluate_poses says."""
     figures = {}
     for group, scenes in groups.items():
         bench.simulate_all(scenes)
         for variant in VARIANTS:
             bench.detect_all(variant, scenes)
             judged = bench.evaluate(group, variant, scenes)
-            ranked = ranking(bench, variant, judged, scenes)
+            ranked = {number: ranking(bench, variant, judged, scenes, number) for number in NUMBERS}
             figures.setdefault(group, {})[variant] = (ranked, judged["summary"])
     return figures
 
@@ -98,7 +97,7 @@ def work(options):
     figures = measure(bench, groups)
     page = options.report or (folder if options.seeds else Path("docs")) / "claim.md"
     facts = {
-        "command": " ".join(["scripts/claim", *sys.argv[1:]]),
+        **provenance("scripts/claim"),
         "folder": options.folder,
         "groups": {
             group: f"{', '.join(GROUPS[group])}: {len(scenes)} scenes"
@@ -106,18 +105,11 @@ def work(options):
         },
         "fill": FILL,
         "preset": PRESET,
-        "commit": commit(),
-        "machine": machine(),
     }
     page.write_text(write_page(facts, figures))
     print(f"Wrote {page}")
     return 0
 
 
-def main():
-    options = arguments()
-    return run_to_end("scripts/claim", lambda: work(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_script("scripts/claim", arguments, work))

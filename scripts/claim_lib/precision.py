@@ -50,7 +50,7 @@ class Ranking:
 def bootstrap(first, second, recalls):
     """Interval of the second's precision less the first's, both on the same scenes drawn with replacement.
 
-    Returns lower and upper end for each recall; NaN where one of them hardly ever reaches it.
+    Returns lower and upper end for each recall; NaN where one of them misses it in more than 5 % of the draws.
     """
     scenes = len(first.targets)
     generator = np.random.default_rng(SEED)

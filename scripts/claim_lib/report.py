@@ -1,22 +1,32 @@
 """The report as Markdown."""
 
+import json
 import math
 
-from benchmark_lib.cases import VARIANT_TEXTS
+from benchmark_lib.cases import VARIANT_TEXTS, VARIANTS
 from benchmark_lib.report import number, table
 
 from .precision import REPEATS, bootstrap
 
 RECALLS = (0.3, 0.5, 0.7)
+NUMBERS = ("score", "reliability")  # that rank the poses of a variant
+PAIRS = (
+    ("spread", "original"),
+    ("spread", "coverage"),
+    ("default", "original"),
+    ("default", "coverage"),
+    ("default", "spread"),
+)
 
 
 def precision_table(figures):
-    """Precision at each recall by variant."""
+    """Precision at each recall by variant and the number that ranks its poses."""
     rows = [
-        [f"`{variant}`"]
-        + [number(None if math.isnan(p) else p, 4) for p in ranked.precision_at(RECALLS)]
-        + [number(summary["ALL"][key], 3) for key in ("AP", "precision", "recall")]
+        [f"`{variant}` by {key}"]
+        + [number(None if math.isnan(p) else p, 4) for p in ranked[key].precision_at(RECALLS)]
+        + [number(summary["ALL"][name], 3) for name in ("AP", "precision", "recall")]
         for variant, (ranked, summary) in figures.items()
+        for key in NUMBERS
     ]
     heading = ["variant", *[f"at recall {recall}" for recall in RECALLS]]
     return table([*heading, "AP", "reliable: precision", "recall"], rows)
@@ -27,21 +37,20 @@ def interval(low, high):
 
 
 def difference_table(figures):
-    """What the whole detector gains over the others, with intervals."""
-    whole, _ = figures["default"]
+    """What one variant gains over another, both ranked by the same number, with intervals."""
     rows = []
-    for variant, (ranked, _) in figures.items():
-        if variant == "default":
-            continue
-        gains = whole.precision_at(RECALLS) - ranked.precision_at(RECALLS)
-        ends = bootstrap(ranked, whole, RECALLS)
-        cells = [f"{gain:+.4f} ({interval(low, high)})" for gain, low, high in zip(gains, *ends)]
-        rows.append([f"`default` less `{variant}`", *cells])
+    for better, worse in PAIRS:
+        for key in NUMBERS:
+            first, second = figures[worse][0][key], figures[better][0][key]
+            gains = second.precision_at(RECALLS) - first.precision_at(RECALLS)
+            ends = bootstrap(first, second, RECALLS)
+            cells = [f"{g:+.4f} ({interval(low, high)})" for g, low, high in zip(gains, *ends)]
+            rows.append([f"`{better}` less `{worse}`, by {key}", *cells])
     return table(["difference", *[f"at recall {recall}" for recall in RECALLS]], rows)
 
 
 def part_table(figures):
-    """Precision at the middle recall and AP by part and variant."""
+    """AP, precision and recall by part and variant."""
     parts = [part for part in figures["default"][1] if part != "ALL"]
     heading = ["part"] + [f"{variant} {key}" for variant in figures for key in ("AP", "P", "R")]
     rows = [
@@ -56,10 +65,18 @@ def part_table(figures):
     return table(heading, rows)
 
 
+def settings(changed):
+    """What a variant changes of the defaults, in brackets."""
+    words = [f"{key}: {json.dumps(value)}" for key, value in changed.items()]
+    return f" (`{', '.join(words)}`)" if words else ""
+
+
 def introduction(facts):
     """What was done, and how to do it again."""
     groups = "".join(f"- {name}: {text}\n" for name, text in facts["groups"].items())
-    variants = "".join(f"- `{name}`: {text}\n" for name, text in VARIANT_TEXTS.items())
+    variants = "".join(
+        f"- `{name}`: {text}{settings(VARIANTS[name])}\n" for name, text in VARIANT_TEXTS.items()
+    )
     return f"""# Does the mismatch test make poses more trustworthy?
 
 The paper's claim, on simulated scenes that no setting was chosen on: where surfaces can slide over one another, poses are wrong although they score
@@ -73,12 +90,10 @@ which keeps what is done in `{facts['folder']}`. {facts['fill']} parts in each b
 Variants, of one pipeline; all refine, verify and compete alike:
 
 {variants}
-Each variant ranks all its poses, those that it calls reliable first, by the number that it trusts: the reliability for `default`, the score for the
-others. Precision at a recall is that of the shortest beginning of this list that holds so many of the targets (parts at least half
-visible). Intervals hold 95 % of {REPEATS} bootstrap draws of scenes, the same for both variants.
-
-Two things are mixed in `default` less the others: which poses are turned down, and the number that ranks them. The reliability was fitted on other
-scenes, but of these same parts. docs/decisions.md has the comparison with every variant ranked by the same number.
+The poses of each variant are ranked, those that it calls reliable first, by the score and by the reliability. Precision at a recall is that of the shortest
+beginning of this list that holds so many of the targets (parts at least half visible). Intervals hold 95 % of {REPEATS} bootstrap draws
+of scenes, the same for both variants. The reliability was fitted on other scenes, but of these same parts; docs/reliability.md judges it on parts left out.
+docs/decisions.md says what follows.
 """
 
 

@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from benchmark_lib.programs import commit, machine, run, run_to_end
+from benchmark_lib.programs import provenance, run, run_script
 
 from .comparison import PEERS, Comparison, find_scenes
 from .report import write_page
@@ -49,9 +49,7 @@ def report_path(options):
 def run_facts(options):
     """What the page says about how it was made."""
     return {
-        "command": " ".join(["scripts/compare", *sys.argv[1:]]),
-        "commit": commit(),
-        "machine": machine(),
+        **provenance("scripts/compare"),
         "limit_s": options.time_limit,
         "repeat": options.repeat,
         "opencv_scene_step": options.opencv_scene_step,
@@ -72,10 +70,5 @@ def work(options):
     return 0
 
 
-def main():
-    options = arguments()
-    return run_to_end("scripts/compare", lambda: work(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_script("scripts/compare", arguments, work))

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from benchmark_lib.cases import Scene, all_parts
-from benchmark_lib.programs import commit, machine, run_to_end
+from benchmark_lib.programs import provenance, run_script
 
 from .measure import detect, run_measured, stage_rates
 from .report import draw, write_page
@@ -91,11 +91,7 @@ def work(options):
         "parts": measure_parts(scenes, output),
         "rates": stage_rates("voting/|verification|models|loading", folder / "stages.json"),
     }
-    facts = {  # before a file differs from the commit
-        "command": " ".join(["scripts/growth", *sys.argv[1:]]),
-        "commit": commit(),
-        "machine": machine(),
-    }
+    facts = provenance("scripts/growth")
     picture = options.report.parent / "images/growth.png"
     draw(figures, picture)
     options.report.write_text(write_page(facts, figures, "images/growth.png"))
@@ -103,10 +99,5 @@ def work(options):
     return 0
 
 
-def main():
-    options = arguments()
-    return run_to_end("scripts/growth", lambda: work(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_script("scripts/growth", arguments, work))

@@ -8,7 +8,7 @@ import numpy as np
 
 from benchmark_lib.cases import all_parts
 from benchmark_lib.detection import write_configs
-from benchmark_lib.programs import BenchmarkError, commit, run_to_end
+from benchmark_lib.programs import BenchmarkError, provenance, run_script
 
 from .regression import fit, predict_left_out
 from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
@@ -65,10 +65,9 @@ def fit_all(poses):
 def run_facts(options, plan):
     """What the report says about how it was made."""
     return {
-        "command": " ".join(["scripts/fit_reliability", *sys.argv[1:]]),
+        **provenance("scripts/fit_reliability"),
         "folder": options.folder,
         "plan": plan,
-        "commit": commit(),
     }
 
 
@@ -95,10 +94,5 @@ def work(options):
     return 0
 
 
-def main():
-    options = arguments()
-    return run_to_end("scripts/fit_reliability", lambda: work(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_script("scripts/fit_reliability", arguments, work))

@@ -3,17 +3,22 @@
 import math
 
 import matplotlib
+import yaml
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # after the choice of a backend that needs no display
 
+from benchmark_lib.cases import PACKAGE
 from benchmark_lib.report import number, table
 
 from .regression import PENALTY, kept_and_precision, reliability_bins
 from .terms import TERMS, code_of
 from .training import FOREIGN_SHIFTS, FOREIGN_WEIGHT, SETS
 
-THRESHOLDS = (0.5, 0.8, 0.85, 0.9, 0.95)
+DEFAULT_THRESHOLD = yaml.safe_load((PACKAGE / "config/detector.yaml").read_text())[
+    "min_reliability"
+]
+THRESHOLDS = sorted({0.5, 0.8, DEFAULT_THRESHOLD, 0.9, 0.95})
 WITH_RIGHT_ONES = ("own", "shiny")
 
 
@@ -165,9 +170,9 @@ Every figure is for poses of a part left out of the fit: one fit a part, judged 
 know. *Kept* is the share of the right poses that have at least this probability, *precision* the share of right ones among the poses that have.
 
 {threshold_table(poses, predicted)}
-Part by part at 0.8:
+Part by part at {DEFAULT_THRESHOLD}, the default of `min_reliability`:
 
-{part_table(poses, predicted, 0.8)}
+{part_table(poses, predicted, DEFAULT_THRESHOLD)}
 Whether the probability is one: of the poses with a probability in each range, the mean of it and the share of right ones. The last columns
 are all sets as the fit weights them.
 
