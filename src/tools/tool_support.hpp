@@ -47,7 +47,7 @@ struct PartOptions
   void add(CLI::App& app);
   /// Loads part and mesh; warnings go to stderr.
   /// @param output  A file to be written. @throw InputError if it is one of those read here.
-  ToolPart load(const std::string& output) const;
+  ToolPart load(const std::string& output = {}) const;
 
   std::string part;
   std::string config;
@@ -71,7 +71,7 @@ struct SceneOptions
   void add(CLI::App& app);
   /// @param max_points  More are refused.
   /// @param output      A file to be written. @throw InputError if it is one of those read here.
-  Scene load(std::size_t max_points, const std::string& output) const;
+  Scene load(std::size_t max_points, const std::string& output = {}) const;
 
   std::string cloud;
   std::string cloud_unit = "m";

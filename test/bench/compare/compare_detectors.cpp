@@ -51,7 +51,7 @@ ToolPart partFor(const std::string& peer, const Options& options)
   part.part = options.part + "/part.yaml";
   if (peer == "fast") part.config = options.fast;
   if (peer == "accurate") part.config = options.accurate;
-  return part.load("");
+  return part.load();
 }
 
 std::string resultPath(const std::string& peer, const std::string& scene, const Options& options)
@@ -78,7 +78,7 @@ PeerScene loadPeerScene(const std::string& folder, const ToolPart& part, const P
   files.depth = folder + "/depth.png";
   files.camera = folder + "/camera.yaml";
   files.roi = folder + "/roi.yaml";
-  Scene loaded = files.load(static_cast<std::size_t>(part.config.max_points), "");
+  Scene loaded = files.load(static_cast<std::size_t>(part.config.max_points));
   PeerScene scene;
   scene.cloud = std::move(loaded.cloud);
   scene.region = *loaded.roi;
