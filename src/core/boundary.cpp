@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/core/boundary.hpp"
 
+#include "ppf_bin_picking/core/parallel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,11 +86,13 @@ bool frameAt(const RangeImage& image, int u, int v, const Eigen::Vector2f& away,
 }
 }  // namespace
 
-std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m)
+std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m, int threads)
 {
   constexpr std::array<std::array<int, 2>, 4> kSides = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-  std::vector<BoundaryPoint> points;
-  for (int v = 0; v < image.camera.height; ++v)
+  std::vector<std::vector<BoundaryPoint>> rows(static_cast<std::size_t>(image.camera.height));
+  const auto search_row = [&](std::size_t row)
+  {
+    const int v = static_cast<int>(row);
     for (int u = 0; u < image.camera.width; ++u)
     {
       const std::size_t i = image.index(u, v);
@@ -100,8 +104,13 @@ std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m)
       const Eigen::Vector2f away = awayFromSurface(image, u, v, jump_m);
       BoundaryPoint boundary;
       if (!away.isZero() && frameAt(image, u, v, away, jump_m, boundary))
-        points.push_back(boundary);
+        rows[row].push_back(boundary);
     }
+  };
+  parallelFor(threads, rows.size(), search_row);
+  std::vector<BoundaryPoint> points;
+  for (const std::vector<BoundaryPoint>& row : rows)
+    points.insert(points.end(), row.begin(), row.end());
   return points;
 }
 

@@ -2,6 +2,7 @@
 
 #include "ppf_bin_picking/core/neighbor_search.hpp"
 
+#include "vote_kernel.hpp"
 #include "vote_peaks.hpp"
 
 namespace ppf_bin_picking
@@ -19,12 +20,14 @@ PoseHypothesis poseOfMatch(const BoundaryPoint& scene, const BoundaryPoint& mode
   return hypothesis;
 }
 
-/// Counts the points that entries name.
-void count(const std::uint32_t* first, const std::uint32_t* last, std::uint32_t* votes)
+/// The boundary points around one of them as arrays, and the votes of the pairs with it.
+struct Neighborhood
 {
-  for (; first != last; ++first)
-    ++votes[*first];
-}
+  std::vector<std::uint32_t> near;
+  BoundaryArrays boundary;
+  std::vector<std::uint32_t> keys;
+  std::vector<std::uint32_t> votes;
+};
 }  // namespace
 
 std::vector<PoseHypothesis> matchBoundary(const std::vector<BoundaryPoint>& scene,
@@ -42,18 +45,25 @@ std::vector<PoseHypothesis> matchBoundary(const std::vector<BoundaryPoint>& scen
   const auto match = [&](std::size_t i)
   {
     if (deadline.passed()) return;
-    thread_local std::vector<std::uint32_t> votes_of_thread, near_of_thread;
-    std::vector<std::uint32_t>&votes = votes_of_thread, &near = near_of_thread;
-    votes.assign(table.points.size(), 0);
-    search.withinInAnyOrder(places[i], model.data().diameter_m, near);
-    const Eigen::Matrix3f frame = scene[i].frame();
-    for (const std::uint32_t j : near)
-      if (const auto key = quantizer.key(scene[i], frame, scene[j]))
-        count(table.entries.data() + table.offsets[*key],
-              table.entries.data() + table.offsets[*key + 1], votes.data());
-    peaks[i] = distinctPeaks(strongestCells(votes, config.peak_ratio), model, config,
-                             [&](std::uint32_t cell)
-                             { return poseOfMatch(scene[i], table.points[cell], votes[cell]); });
+    thread_local Neighborhood around_of_thread;
+    Neighborhood& around = around_of_thread;
+    search.withinInAnyOrder(places[i], model.data().diameter_m, around.near);
+    around.boundary.resize(around.near.size());
+    for (std::size_t k = 0; k < around.near.size(); ++k)
+    {
+      const BoundaryPoint& second = scene[around.near[k]];
+      around.boundary.set(k, second.point.data(), second.normal.data(), second.outward.data());
+    }
+    around.keys.resize(around.near.size());
+    boundaryKeys(around.boundary, boundaryReference(scene[i]), quantizer.steps(),
+                 around.keys.data());
+    around.votes.assign(table.points.size(), 0);
+    addBoundaryVotes({table.offsets.data(), table.entries.data()}, around.keys.size(),
+                     around.keys.data(), around.votes.data());
+    peaks[i] = distinctPeaks(strongestCells(around.votes, config.peak_ratio), model, config,
+                             [&](std::uint32_t cell) {
+                               return poseOfMatch(scene[i], table.points[cell], around.votes[cell]);
+                             });
   };
   parallelFor(config.threads, scene.size(), match);
 

@@ -23,15 +23,6 @@ constexpr float kShortestRel = 0.1F;          // of the diameter
 constexpr float kTieRel = 1e-4F;              // of the diameter
 constexpr int kHalfCells = 13;                // 1 / kCellRel, rounded
 constexpr std::uint32_t kCells = 2 * kHalfCells + 1;
-constexpr std::uint32_t kAxes = 6;  // both ways along each
-
-/// The axis that a direction is nearest to.
-std::uint32_t nearestAxis(const Eigen::Vector3f& direction)
-{
-  const float x = std::abs(direction.x()), y = std::abs(direction.y()), z = std::abs(direction.z());
-  const int axis = z > x && z > y ? 2 : (y > x ? 1 : 0);  // of equal ones the first
-  return static_cast<std::uint32_t>(2 * axis + (direction(axis) < 0 ? 1 : 0));
-}
 
 /// The part alone before nothing, as an image of the detector's resolution.
 RangeImage imageOfView(const RenderableMesh& mesh, const Eigen::Isometry3f& T_camera_model,
@@ -107,7 +98,7 @@ std::vector<std::vector<std::uint32_t>> pointsOfViews(const RenderableMesh& mesh
     const RangeImage image = imageOfView(mesh, T_camera_model, diameter_m, view);
     const Eigen::Isometry3f T_model_camera = T_camera_model.inverse(Eigen::Isometry);
     std::vector<std::uint32_t> numbers;
-    for (BoundaryPoint boundary : boundaryOf(image, boundaryJump(diameter_m)))
+    for (BoundaryPoint boundary : boundaryOf(image, boundaryJump(diameter_m), 1))
     {
       boundary.point = T_model_camera * boundary.point - center;
       boundary.normal = T_model_camera.linear() * boundary.normal;
@@ -123,30 +114,34 @@ std::vector<std::vector<std::uint32_t>> pointsOfViews(const RenderableMesh& mesh
 }  // namespace
 
 BoundaryQuantizer::BoundaryQuantizer(float diameter_m)
-    : inverse_cell_(1 / (kCellRel * diameter_m)),
-      shortest_m_(kShortestRel * diameter_m),
-      longest_m_(diameter_m)
+    : steps_{1 / (kCellRel * diameter_m), kShortestRel * diameter_m, diameter_m, kHalfCells}
 {
 }
 
 std::uint32_t BoundaryQuantizer::keyCount()
 {
-  return kCells * kCells * kCells * kAxes * kAxes;
+  return kCells * kCells * kCells * kBoundaryAxes * kBoundaryAxes;
 }
 
-std::optional<std::uint32_t> BoundaryQuantizer::key(const BoundaryPoint& first,
-                                                    const Eigen::Matrix3f& frame,
-                                                    const BoundaryPoint& second) const
+std::uint32_t BoundaryQuantizer::key(const BoundaryReference& first,
+                                     const BoundaryPoint& second) const
 {
-  const Eigen::Vector3f apart = second.point - first.point;
-  const float squared = apart.squaredNorm();
-  if (squared < shortest_m_ * shortest_m_ || squared > longest_m_ * longest_m_) return std::nullopt;
-  const Eigen::Vector3f place = frame.transpose() * apart * inverse_cell_;
-  std::uint32_t key = 0;
+  const Eigen::Vector3f &p = second.point, &n = second.normal, &o = second.outward;
+  return boundaryKeyOf(steps_, first, p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), o.x(), o.y(),
+                       o.z());
+}
+
+BoundaryReference boundaryReference(const BoundaryPoint& first)
+{
+  const Eigen::Matrix3f frame = first.frame();
+  BoundaryReference reference;
   for (int k = 0; k < 3; ++k)
-    key = key * kCells + static_cast<std::uint32_t>(place(k) + (kHalfCells + 0.5F));
-  key = key * kAxes + nearestAxis(frame.transpose() * second.normal);
-  return key * kAxes + nearestAxis(frame.transpose() * second.outward);
+  {
+    reference.p[k] = first.point[k];
+    for (int c = 0; c < 3; ++c)
+      reference.axes[k][c] = frame(c, k);
+  }
+  return reference;
 }
 
 BoundaryTable buildBoundaryTable(const RenderableMesh& mesh, const Eigen::Vector3f& center,
@@ -166,10 +161,12 @@ BoundaryTable buildBoundaryTable(const RenderableMesh& mesh, const Eigen::Vector
     for (const std::uint32_t i : seen)
     {
       if (!wanted[i]) continue;
-      const Eigen::Matrix3f frame = table.points[i].frame();
+      const BoundaryReference first = boundaryReference(table.points[i]);
       for (const std::uint32_t j : seen)
-        if (const auto key = quantizer.key(table.points[i], frame, table.points[j]))
-          pairs.push_back(std::uint64_t{*key} << 32 | i);
+      {
+        const std::uint32_t key = quantizer.key(first, table.points[j]);
+        if (key != kNoKey) pairs.push_back(std::uint64_t{key} << 32 | i);
+      }
     }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -156,8 +156,8 @@ std::vector<PoseHypothesis> boundaryHypotheses(const RangeImage& image, const Pp
                                                const Deadline& deadline)
 {
   const auto diameter_m = static_cast<float>(model.diameter());
-  const std::vector<BoundaryPoint> boundary =
-      thinOutBoundary(boundaryOf(image, boundaryJump(diameter_m)), boundarySpacing(diameter_m));
+  const std::vector<BoundaryPoint> boundary = thinOutBoundary(
+      boundaryOf(image, boundaryJump(diameter_m), config.threads), boundarySpacing(diameter_m));
   return matchBoundary(boundary, model, config, deadline);
 }
 

@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/core/model_renderer.hpp"
 
+#include "draw_kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,15 +12,6 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr float kNearest_m = 1e-3F;  // surfaces nearer to the camera than this are not drawn
-
-/// A vertex in the image: pixel and 1/z, which is linear over the image of a plane. Behind the
-/// camera: 0.
-struct ImageVertex
-{
-  float u = 0;
-  float v = 0;
-  float inverse_z = 0;
-};
 
 void transformVertices(const TriangleMesh& mesh, const Eigen::Isometry3f& T_camera_model,
                        const PinholeCamera& camera, std::vector<ImageVertex>& vertices)
@@ -64,57 +57,6 @@ void placeWindow(const std::vector<ImageVertex>& vertices, const PinholeCamera& 
   rendered.depth.assign(pixels, 0.0F);  // holds 1/z while drawing
   rendered.triangle.resize(pixels);
 }
-
-/// Narrows [first, last] to where value + k * step >= 0.
-void keepNotNegative(float value, float step, float& first, float& last)
-{
-  if (step > 0)
-    first = std::max(first, -value / step);
-  else if (step < 0)
-    last = std::min(last, -value / step);
-  else if (value < 0)
-    last = -1;
-}
-
-/// Draws one triangle into the window's 1/z buffer, nearest surface wins.
-void drawTriangle(const ImageVertex& a, const ImageVertex& b, const ImageVertex& c,
-                  std::uint32_t index, RenderedPart& rendered)
-{
-  const float area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-  if (area == 0) return;
-  const int u0 = std::max(rendered.left, static_cast<int>(std::ceil(std::min({a.u, b.u, c.u}))));
-  const int u1 = std::min(rendered.left + rendered.width - 1,
-                          static_cast<int>(std::floor(std::max({a.u, b.u, c.u}))));
-  const int v0 = std::max(rendered.top, static_cast<int>(std::ceil(std::min({a.v, b.v, c.v}))));
-  const int v1 = std::min(rendered.top + rendered.height - 1,
-                          static_cast<int>(std::floor(std::max({a.v, b.v, c.v}))));
-  const float scale = 1.0F / area;
-  // Weights of b and c grow by a constant from pixel to pixel; so does 1/z.
-  const float step_b = (c.v - a.v) * scale, step_c = -(b.v - a.v) * scale;
-  const float step_z = step_b * (b.inverse_z - a.inverse_z) + step_c * (c.inverse_z - a.inverse_z);
-  for (int v = v0; v <= v1; ++v)
-  {
-    const float du = static_cast<float>(u0) - a.u, dv = static_cast<float>(v) - a.v;
-    const float weight_b = du * step_b - dv * (c.u - a.u) * scale;
-    const float weight_c = du * step_c + dv * (b.u - a.u) * scale;
-    float first = 0, last = static_cast<float>(u1 - u0);
-    keepNotNegative(weight_b, step_b, first, last);
-    keepNotNegative(weight_c, step_c, first, last);
-    keepNotNegative(1 - weight_b - weight_c, -step_b - step_c, first, last);
-    const float inverse_z0 = a.inverse_z + weight_b * (b.inverse_z - a.inverse_z) +
-                             weight_c * (c.inverse_z - a.inverse_z);
-    std::size_t pixel = static_cast<std::size_t>(v - rendered.top) * rendered.width +
-                        static_cast<std::size_t>(u0 - rendered.left) +
-                        static_cast<std::size_t>(std::ceil(first));
-    for (float k = std::ceil(first); k <= last; k += 1, ++pixel)
-    {
-      const float inverse_z = inverse_z0 + k * step_z;
-      if (inverse_z <= rendered.depth[pixel]) continue;
-      rendered.depth[pixel] = inverse_z;
-      rendered.triangle[pixel] = index;
-    }
-  }
-}
 }  // namespace
 
 RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
@@ -139,9 +81,12 @@ RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
 void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model,
                 const PinholeCamera& camera, RenderedPart& rendered)
 {
-  thread_local std::vector<ImageVertex> vertices;
+  thread_local std::vector<ImageVertex> vertices_of_thread;
+  std::vector<ImageVertex>& vertices = vertices_of_thread;
   transformVertices(part.mesh, T_camera_model, camera, vertices);
   placeWindow(vertices, camera, rendered);
+  const DrawWindow window{rendered.left,   rendered.top,          rendered.width,
+                          rendered.height, rendered.depth.data(), rendered.triangle.data()};
   rendered.normals.resize(part.normals.size());
   const Eigen::Matrix3f rotation = T_camera_model.linear();
   const Eigen::Vector3f camera_model = -(rotation.transpose() * T_camera_model.translation());
@@ -152,9 +97,8 @@ void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_mo
     rendered.normals[i] = rotation * part.normals[i];
     if (vertices[i0].inverse_z == 0 || vertices[i1].inverse_z == 0 || vertices[i2].inverse_z == 0)
       continue;
-    drawTriangle(vertices[i0], vertices[i1], vertices[i2], static_cast<std::uint32_t>(i), rendered);
+    drawTriangle(vertices[i0], vertices[i1], vertices[i2], static_cast<std::uint32_t>(i), window);
   }
-  for (float& depth : rendered.depth)
-    depth = depth > 0 ? 1.0F / depth : 0.0F;
+  invertDepth(rendered.depth.data(), rendered.depth.size());
 }
 }  // namespace ppf_bin_picking

@@ -1,4 +1,5 @@
 #include "ppf_bin_picking/core/normals.hpp"
+#include "ppf_bin_picking/core/parallel.hpp"
 
 #include "range_image_makers.hpp"
 
@@ -34,7 +35,7 @@ struct Window
 /// Averages blocks of factor x factor pixels: of each block the surface of its median depth.
 RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
                         const PinholeCamera& camera, const Window& window, int factor,
-                        float same_surface_m)
+                        float same_surface_m, int threads)
 {
   RangeImage image;
   image.camera.width = (window.right - window.left + 1) / factor;
@@ -48,8 +49,10 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
   const std::size_t pixels = static_cast<std::size_t>(image.camera.width) * image.camera.height;
   image.depth.assign(pixels, 0);
   image.in_roi.assign(pixels, 0);
-  std::vector<std::pair<float, std::uint8_t>> block;
-  for (int v = 0; v < image.camera.height; ++v)
+  const auto average_row = [&](std::size_t row)
+  {
+    const int v = static_cast<int>(row);
+    std::vector<std::pair<float, std::uint8_t>> block;
     for (int u = 0; u < image.camera.width; ++u)
     {
       block.clear();
@@ -71,6 +74,8 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
       image.depth[image.index(u, v)] = sum / count;
       image.in_roi[image.index(u, v)] = median_inside;
     }
+  };
+  parallelFor(threads, static_cast<std::size_t>(image.camera.height), average_row);
   return image;
 }
 }  // namespace
@@ -94,8 +99,10 @@ RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera
                             const RangeImageOptions& options)
 {
   Window window;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (inside[i]) window.add(static_cast<int>(i % cloud.width), static_cast<int>(i / cloud.width));
+  std::size_t i = 0;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u, ++i)
+      if (inside[i]) window.add(u, v);
   const double per_meter = camera.fx / near_z;
   const double margin_px = kMarginRel * options.largest_diameter_m * per_meter;
   const int largest_side_px = std::max(camera.width, camera.height);
@@ -103,8 +110,9 @@ RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera
               camera.width, camera.height);
   const double wanted_factor = options.diameter_m * per_meter / options.pixels_per_diameter + 0.25;
   const int factor = static_cast<int>(std::clamp<double>(wanted_factor, 1, largest_side_px));
-  RangeImage image = averagedDown(cloud, inside, camera, window, factor,
-                                  kSameSurfaceRel * static_cast<float>(options.diameter_m));
+  RangeImage image =
+      averagedDown(cloud, inside, camera, window, factor,
+                   kSameSurfaceRel * static_cast<float>(options.diameter_m), options.threads);
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);
   else

@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/core/outline.hpp"
 
+#include "draw_kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,25 +53,27 @@ Eigen::Vector2f outwardDirection(const RenderedPart& view, const PinholeCamera& 
 
 /// Relative depths along the direction: the part's where it is, its plane's beyond.
 void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
-                 OutlinePoint& outline)
+                 int reach_px, OutlinePoint& outline)
 {
-  Eigen::Vector3f normal =
+  outline.profile_m.fill(0);
+  const Eigen::Vector3f& normal =
       view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
   const float z0 = view.depthAt(column, row);
   const float facing = std::abs(normal.dot(outline.point)) / outline.point.norm();
-  const float plane = normal.dot(outline.point);
-  for (int t = -kOutlineReach_px; t <= kOutlineReach_px; ++t)
+  // The plane's depth at a pixel is plane / (normal . ray), which grows by constants.
+  const float plane = normal.dot(outline.point), here = plane / z0;
+  const float by_column = normal.x() / camera.fx, by_row = normal.y() / camera.fy;
+  for (int t = -reach_px; t <= reach_px; ++t)
   {
     const auto step = static_cast<float>(t);
     const int c = column + rounded(step * outline.direction.x());
     const int r = row + rounded(step * outline.direction.y());
     float& relative = outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
-    relative = 0;
     if (t <= 0 && covered(view, c, r))
       relative = view.depthAt(c, r) - z0;
     else if (facing > kPlaneFacing)
-      relative = plane / normal.dot(camera.ray(static_cast<float>(view.left + c),
-                                               static_cast<float>(view.top + r))) -
+      relative = plane / (here + static_cast<float>(c - column) * by_column +
+                          static_cast<float>(r - row) * by_row) -
                  z0;
   }
 }
@@ -87,14 +91,18 @@ bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int colu
 }
 
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
-                                    float jump_m, int stride)
+                                    float jump_m, int reach_px, int stride)
 {
+  thread_local std::vector<std::uint8_t> marks_of_thread;
+  std::vector<std::uint8_t>& marks = marks_of_thread;
+  marks.resize(view.depth.size());
+  markFalls(view.depth.data(), view.width, view.height, jump_m, marks.data());
   std::vector<OutlinePoint> outline;
   int seen = 0;
   for (int row = 0; row < view.height; ++row)
     for (int column = 0; column < view.width; ++column)
     {
-      if (!covered(view, column, row)) continue;
+      if (marks[static_cast<std::size_t>(row) * view.width + column] == 0) continue;
       const float z = view.depthAt(column, row);
       const auto ends = [&](int dc, int dr)
       { return surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m); };
@@ -106,7 +114,7 @@ std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamer
       const Eigen::Vector3f ray =
           camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
       point.point = ray * z;
-      fillProfile(view, camera, column, row, point);
+      fillProfile(view, camera, column, row, reach_px, point);
       outline.push_back(point);
     }
   return outline;

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <utility>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -31,13 +30,24 @@ constexpr double kShadowWeight = 0.3;  // of an end beyond which nothing was mea
 class Measurements
 {
 public:
+  explicit Measurements(const RenderedPart& view)
+      : left_(view.left),
+        top_(view.top),
+        columns_(view.width / kBlock_px + 1),
+        blocks_(static_cast<std::size_t>(columns_) *
+                static_cast<std::size_t>(view.height / kBlock_px + 1))
+  {
+  }
+
+  /// (u, v): a pixel of the view.
   void add(const Vector6f& jacobian, double residual_m, int u, int v, double weight = 1)
   {
     const Eigen::Matrix<double, 6, 1> j = jacobian.cast<double>();
     information_ += weight * j * j.transpose();
     squares_ += weight * residual_m * residual_m;
     weights_ += weight;
-    blocks_[{u / kBlock_px, v / kBlock_px}] += weight * residual_m;
+    const int block = (v - top_) / kBlock_px * columns_ + (u - left_) / kBlock_px;
+    blocks_[static_cast<std::size_t>(block)] += weight * residual_m;
   }
 
   /// Information [1 / m^2] of as many measurements as err independently.
@@ -47,8 +57,8 @@ public:
     if (!(weights_ > 0)) return Matrix6d::Zero();
     const double variance = std::max(squares_ / weights_, least_m * least_m);
     double sums = 0;
-    for (const auto& block : blocks_)
-      sums += block.second * block.second;
+    for (const double block : blocks_)
+      sums += block * block;
     const double alike = squares_ > 0 ? std::max(1.0, sums / squares_) : 1.0;
     return information_ / (variance * alike * kUnseenShare);
   }
@@ -57,7 +67,10 @@ private:
   Matrix6d information_ = Matrix6d::Zero();
   double squares_ = 0;
   double weights_ = 0;
-  std::map<std::pair<int, int>, double> blocks_;  ///< Sum of the residuals.
+  int left_;
+  int top_;
+  int columns_;
+  std::vector<double> blocks_;  ///< Sums of the residuals.
 };
 
 /// Gathers from a part rendered at its pose.
@@ -77,7 +90,7 @@ public:
 
   Measurements surface() const
   {
-    Measurements measurements;
+    Measurements measurements(view_);
     for (int row = 0; row < view_.height; ++row)
       for (int column = 0; column < view_.width; ++column)
         if (view_.depthAt(column, row) > 0) addPixel(column, row, measurements);
@@ -86,8 +99,9 @@ public:
 
   Measurements outline() const
   {
-    Measurements measurements;
-    for (const OutlinePoint& point : outlineOf(view_, image_.camera, boundaryJump(diameter_m_), 1))
+    Measurements measurements(view_);
+    for (const OutlinePoint& point :
+         outlineOf(view_, image_.camera, boundaryJump(diameter_m_), kReach_px, 1))
     {
       const OutlineMatch match = matchOutline(image_, point, point.point, gate_m_, kReach_px);
       if (match.end != OutlineEnd::kBehind && match.end != OutlineEnd::kMissing) continue;

@@ -55,7 +55,8 @@ void addOutline(const RangeImage& image, const RenderedPart& view, const Eigen::
   const float reach = kReachRel * diameter_m * image.camera.fx / center.z();
   const int reach_px = std::clamp(static_cast<int>(std::lround(reach)), 3, kOutlineReach_px);
   float count = 0;
-  for (const OutlinePoint& point : outlineOf(view, image.camera, boundaryJump(diameter_m), 1))
+  for (const OutlinePoint& point :
+       outlineOf(view, image.camera, boundaryJump(diameter_m), reach_px, 1))
   {
     const OutlineEnd end = matchOutline(image, point, point.point, gate_m, reach_px).end;
     if (end == OutlineEnd::kHidden) continue;

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
+#include "ppf_bin_picking/core/alignment.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
@@ -29,28 +30,21 @@ constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction i
 constexpr float kConvergedRel = 1e-5F;   // step, relative to the diameter
 constexpr float kPriorShare = 1e-3F;
 
-/// A point of the part's visible surface, mesh frame.
-struct SurfacePoint
-{
-  Eigen::Vector3f point;
-  Eigen::Vector3f normal;
-};
-
 /// What the camera sees of a free part at a pose.
 struct VisiblePart
 {
-  std::vector<SurfacePoint> surface;            ///< About kSurfacePoints, evenly over the image.
+  PointArrays surface;                          ///< About kSurfacePoints, evenly, mesh frame [m].
   std::vector<OutlinePoint> outline;            ///< Points as seen from the pose of rendering.
   std::vector<Eigen::Vector3f> outline_points;  ///< The outline's points, mesh frame [m].
 };
 
 void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
-             const PinholeCamera& camera, VisiblePart& part)
+             const PinholeCamera& camera, int reach_px, VisiblePart& part)
 {
-  thread_local RenderedPart view;
+  thread_local RenderedPart view_of_thread;
+  RenderedPart& view = view_of_thread;
   renderPart(model.renderable(), T_camera_model, camera, view);
-  std::vector<SurfacePoint>& surface = part.surface;
-  surface.clear();
+  part.surface.resize(0);
   const auto covered = static_cast<std::size_t>(
       std::count_if(view.depth.begin(), view.depth.end(), [](float z) { return z > 0; }));
   const int stride =
@@ -67,66 +61,29 @@ void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
           view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
       if (normal.dot(ray) > 0) normal = -normal;
       if (-normal.dot(ray) < kMinFacing * ray.norm()) continue;
-      surface.push_back({T_model_camera * (z * ray), T_model_camera.linear() * normal});
+      const Eigen::Vector3f point = T_model_camera * (z * ray);
+      const Eigen::Vector3f normal_model = T_model_camera.linear() * normal;
+      part.surface.add(point.data(), normal_model.data());
     }
-  part.outline =
-      outlineOf(view, camera, boundaryJump(static_cast<float>(model.diameter())), kOutlineStride);
+  part.outline = outlineOf(view, camera, boundaryJump(static_cast<float>(model.diameter())),
+                           reach_px, kOutlineStride);
   part.outline_points.clear();
   for (const OutlinePoint& point : part.outline)
     part.outline_points.push_back(T_model_camera * point.point);
 }
 
-/// The weighted normal equations of one step, about the part's centre.
-struct NormalEquations
+/// The step that solves the equations, without its part along directions that the data does not
+/// hold.
+Vector6f stepOf(const NormalEquations& equations)
 {
-  Matrix6f matrix = Matrix6f::Zero();
-  Vector6f right_side = Vector6f::Zero();
-  float weight = 0;
-
-  void add(const Vector6f& jacobian, float residual, float w)
+  const Eigen::SelfAdjointEigenSolver<Matrix6f> solver(equations.matrix / equations.weight);
+  Vector6f along = solver.eigenvectors().transpose() * equations.right_side / equations.weight;
+  for (int i = 0; i < 6; ++i)
   {
-    matrix += w * jacobian * jacobian.transpose();
-    right_side += w * residual * jacobian;
-    weight += w;
+    const float held = solver.eigenvalues()(i);
+    along(i) = held > kWeakDirection ? along(i) / (held + kPriorShare) : 0.0F;
   }
-
-  /// The step, without its part along directions that the data does not hold.
-  Vector6f solve() const
-  {
-    const Eigen::SelfAdjointEigenSolver<Matrix6f> solver(matrix / weight);
-    Vector6f along = solver.eigenvectors().transpose() * right_side / weight;
-    for (int i = 0; i < 6; ++i)
-    {
-      const float held = solver.eigenvalues()(i);
-      along(i) = held > kWeakDirection ? along(i) / (held + kPriorShare) : 0.0F;
-    }
-    return solver.eigenvectors() * along;
-  }
-};
-
-NormalEquations equationsOf(const RangeImage& image, const std::vector<SurfacePoint>& surface,
-                            const Eigen::Isometry3f& T_camera_model, const Eigen::Vector3f& center,
-                            float lever_m, float gate_m)
-{
-  NormalEquations equations;
-  for (const SurfacePoint& sample : surface)
-  {
-    const Eigen::Vector3f p = T_camera_model * sample.point;
-    int u, v;
-    if (!image.camera.pixelOf(p, u, v)) continue;
-    const std::size_t pixel = image.index(u, v);
-    const Eigen::Vector3f& normal = image.normals[pixel];
-    if (image.depth[pixel] == 0 ||
-        normal.dot(T_camera_model.linear() * sample.normal) < kMinNormalCosine)
-      continue;
-    const float residual = normal.dot(image.point(u, v) - p);
-    const float share = residual / gate_m;
-    if (std::abs(share) >= 1) continue;
-    const float tukey = (1 - share * share) * (1 - share * share);
-    const Eigen::Vector3f arm = (p - center) / lever_m;
-    equations.add(motionJacobian(arm, normal), residual, tukey);
-  }
-  return equations;
+  return solver.eigenvectors() * along;
 }
 
 /// Adds what the outline says: across it the part should end where the measured surface ends.
@@ -175,23 +132,27 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
   const float lever_m = kLeverRel * diameter;
   const float last_gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * diameter;
   Eigen::Isometry3f pose = T_camera_model;
-  thread_local VisiblePart part;
+  const ImageArrays arrays = arraysOf(image);
+  thread_local VisiblePart part_of_thread;
+  VisiblePart& part = part_of_thread;
   for (int i = 0; i < config.icp_iterations; ++i)
   {
-    if (i % kStepsPerView == 0) seeFrom(model, pose, image.camera, part);
     const float progress =
         static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
+    const int reach_px =
+        kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
+    if (i % kStepsPerView == 0) seeFrom(model, pose, image.camera, reach_px, part);
     const float gate_m = std::max(
         last_gate_m, kFirstGateRel * diameter *
                          std::pow(last_gate_m / (kFirstGateRel * diameter), 1.5F * progress));
     const Eigen::Vector3f center = pose * model.data().center;
-    NormalEquations equations = equationsOf(image, part.surface, pose, center, lever_m, gate_m);
-    const int reach_px =
-        kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
+    NormalEquations equations =
+        alignmentOf(part.surface, arrays, pose,
+                    {{center.x(), center.y(), center.z()}, lever_m, gate_m, kMinNormalCosine});
     addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
                equations);
     if (!(equations.weight > 6)) break;
-    const Vector6f step = equations.solve();
+    const Vector6f step = stepOf(equations);
     pose = moved(pose, step, center, lever_m);
     if (gate_m == last_gate_m && step.norm() < kConvergedRel * diameter) break;
   }

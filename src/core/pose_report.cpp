@@ -152,9 +152,9 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
 std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candidates,
                                            std::size_t pixels)
 {
-  std::vector<PoseEvidence> evidence;
+  std::vector<const PoseEvidence*> evidence;
   for (const Candidate& candidate : candidates)
-    evidence.push_back(candidate.evidence);
+    evidence.push_back(&candidate.evidence);
   return selectPoses(evidence, pixels);
 }
 

@@ -1,56 +1,47 @@
 #include "ppf_bin_picking/core/ppf.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr float kPi = 3.14159265358979F;
+constexpr float kPi = 3.14159265F;
 
-float angleOfCosine(float cosine)
+float dotOf(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
 {
-  return std::acos(std::clamp(cosine, -1.0F, 1.0F));
+  return dot3(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
 }
 }  // namespace
 
 PairFeature pairFeature(const Eigen::Vector3f& p1, const Eigen::Vector3f& n1,
                         const Eigen::Vector3f& p2, const Eigen::Vector3f& n2)
 {
-  PairFeature feature;
   const Eigen::Vector3f d = p2 - p1;
-  feature.distance_m = d.norm();
-  feature.angle_n1_n2_rad = angleOfCosine(n1.dot(n2));
+  PairFeature feature;
+  feature.distance_m = std::sqrt(dotOf(d, d));
+  feature.angle_n1_n2_rad = arcCosine(dotOf(n1, n2));
   if (feature.distance_m > 0)
   {
-    feature.angle_n1_d_rad = angleOfCosine(n1.dot(d) / feature.distance_m);
-    feature.angle_n2_d_rad = angleOfCosine(n2.dot(d) / feature.distance_m);
+    const float inverse = 1.0F / feature.distance_m;
+    feature.angle_n1_d_rad = arcCosine(dotOf(n1, d) * inverse);
+    feature.angle_n2_d_rad = arcCosine(dotOf(n2, d) * inverse);
   }
   return feature;
 }
 
 FeatureQuantizer::FeatureQuantizer(const ModelParameters& parameters, float diameter_m)
-    : diameter_m_(diameter_m),
-      inverse_distance_step_(1.0F / (static_cast<float>(parameters.step_rel) * diameter_m)),
-      inverse_angle_step_(static_cast<float>(parameters.n_angle) / (2 * kPi)),
-      distance_bins_(static_cast<std::uint32_t>(std::ceil(1.0 / parameters.step_rel)) + 1),
-      angle_bins_(static_cast<std::uint32_t>((parameters.n_angle + 1) / 2))
+    : steps_{diameter_m, 1.0F / (static_cast<float>(parameters.step_rel) * diameter_m),
+             static_cast<float>(parameters.n_angle) / (2 * kPi),
+             static_cast<std::int32_t>(std::ceil(1.0 / parameters.step_rel)) + 1,
+             (parameters.n_angle + 1) / 2}
 {
-}
-
-std::uint32_t FeatureQuantizer::angleBin(float angle_rad) const
-{
-  return std::min(static_cast<std::uint32_t>(angle_rad * inverse_angle_step_), angle_bins_ - 1);
 }
 
 std::uint32_t FeatureQuantizer::key(const PairFeature& feature) const
 {
-  const auto distance = static_cast<std::uint32_t>(feature.distance_m * inverse_distance_step_);
-  std::uint32_t key = std::min(distance, distance_bins_ - 1);
-  key = key * angle_bins_ + angleBin(feature.angle_n1_d_rad);
-  key = key * angle_bins_ + angleBin(feature.angle_n2_d_rad);
-  return key * angle_bins_ + angleBin(feature.angle_n1_n2_rad);
+  return keyOf(steps_, feature.distance_m, feature.angle_n1_d_rad, feature.angle_n2_d_rad,
+               feature.angle_n1_n2_rad);
 }
 
 Eigen::Matrix3f rotationToX(const Eigen::Vector3f& normal)
@@ -66,9 +57,20 @@ std::uint16_t pairAlpha(const Eigen::Matrix3f& R_local_cloud, const Eigen::Vecto
                         const Eigen::Vector3f& p2)
 {
   const Eigen::Vector3f d = p2 - p1;
-  const float y = R_local_cloud.row(1).dot(d);
-  const float z = R_local_cloud.row(2).dot(d);
-  const float turns = std::atan2(-z, y) / (2 * kPi);
-  return static_cast<std::uint16_t>(static_cast<std::int32_t>(std::floor(turns * kAlphaTurn)));
+  return alphaOf(dotOf(R_local_cloud.row(1), d), dotOf(R_local_cloud.row(2), d));
+}
+
+PairReference pairReference(const Eigen::Vector3f& p1, const Eigen::Vector3f& n1)
+{
+  const Eigen::Matrix3f R_local_cloud = rotationToX(n1);
+  PairReference reference;
+  for (int k = 0; k < 3; ++k)
+  {
+    reference.p[k] = p1[k];
+    reference.n[k] = n1[k];
+    reference.y_axis[k] = R_local_cloud(1, k);
+    reference.z_axis[k] = R_local_cloud(2, k);
+  }
+  return reference;
 }
 }  // namespace ppf_bin_picking

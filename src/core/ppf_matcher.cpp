@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/core/neighbor_search.hpp"
 #include "ppf_bin_picking/core/ppf.hpp"
 
+#include "vote_kernel.hpp"
 #include "vote_peaks.hpp"
 
 #include <algorithm>
@@ -12,50 +13,55 @@ namespace ppf_bin_picking
 {
 namespace
 {
+/// The scene points around a reference point as arrays, and the pairs with it.
+struct Neighborhood
+{
+  std::vector<std::uint32_t> near;
+  PointArrays points;
+  std::vector<std::uint32_t> keys;
+  std::vector<std::uint32_t> alphas;
+  std::vector<std::uint32_t> weights;
+};
+
 /// Votes over (model reference point, alpha bin) for one scene reference point.
 class Accumulator
 {
 public:
   void reset(std::size_t references, std::uint32_t alpha_bins)
   {
-    alpha_bins_ = alpha_bins;
-    cells_.assign(references * alpha_bins, 0);
+    grid_ = {alpha_bins, 0};
+    while ((1U << grid_.row_shift) < alpha_bins)
+      ++grid_.row_shift;
+    cells_.assign(references << grid_.row_shift, 0);
   }
 
-  /// Votes for entries [first, last) of the model's table. Works on copies of the members: a vote
-  /// might change them for all that the compiler knows.
-  void vote(const std::uint32_t* first, const std::uint32_t* last, std::uint16_t alpha_scene,
-            std::uint32_t weight)
+  void add(const VoteTable& table, const Neighborhood& around)
   {
-    std::uint32_t* const cells = cells_.data();
-    const std::uint32_t bins = alpha_bins_;
-    for (; first != last; ++first)
-    {
-      const auto alpha = static_cast<std::uint16_t>(*first - alpha_scene);
-      cells[(*first >> 16) * bins + (alpha * bins >> 16)] += weight;
-    }
+    addVotes(table, grid_, around.keys.size(), around.keys.data(), around.alphas.data(),
+             around.weights.data(), cells_.data());
   }
 
   const std::vector<std::uint32_t>& cells() const { return cells_; }
   std::uint32_t votes(std::uint32_t cell) const { return cells_[cell]; }
-  std::uint32_t reference(std::uint32_t cell) const { return cell / alpha_bins_; }
+  std::uint32_t reference(std::uint32_t cell) const { return cell >> grid_.row_shift; }
 
   /// The alpha [rad] of a cell: the centre of mass of the cell and its two neighbours round the
   /// circle.
   float alpha(std::uint32_t cell) const
   {
-    const std::uint32_t first = cell / alpha_bins_ * alpha_bins_;
+    const std::uint32_t bins = grid_.alpha_bins;
+    const std::uint32_t first = reference(cell) << grid_.row_shift;
     const std::uint32_t bin = cell - first;
-    const auto before = static_cast<float>(cells_[first + (bin + alpha_bins_ - 1) % alpha_bins_]);
+    const auto before = static_cast<float>(cells_[first + (bin + bins - 1) % bins]);
     const auto here = static_cast<float>(cells_[cell]);
-    const auto after = static_cast<float>(cells_[first + (bin + 1) % alpha_bins_]);
+    const auto after = static_cast<float>(cells_[first + (bin + 1) % bins]);
     const float offset = (after - before) / (before + here + after);
-    const float step_rad = 2 * static_cast<float>(M_PI) / static_cast<float>(alpha_bins_);
+    const float step_rad = 2 * static_cast<float>(M_PI) / static_cast<float>(bins);
     return (static_cast<float>(bin) + 0.5F + offset) * step_rad;
   }
 
 private:
-  std::uint32_t alpha_bins_ = 1;
+  VoteGrid grid_{1, 0};
   std::vector<std::uint32_t> cells_;
 };
 
@@ -69,30 +75,25 @@ struct Matching
   NeighborSearch search;
 };
 
-void castVotes(const Matching& matching, std::uint32_t reference, Accumulator& accumulator)
+void lookAround(const Matching& matching, std::uint32_t reference, Neighborhood& around)
 {
-  thread_local std::vector<std::uint32_t> near_of_thread;
-  std::vector<std::uint32_t>& near = near_of_thread;
-  const Eigen::Vector3f& p1 = matching.scene.points[reference];
-  const Eigen::Vector3f& n1 = matching.scene.normals[reference];
-  const Eigen::Matrix3f rotation = rotationToX(n1);
-  matching.search.withinInAnyOrder(p1, matching.model.diameter_m, near);
-  for (const std::uint32_t j : near)
+  const OrientedPoints& scene = matching.scene;
+  const DetectorConfig& config = matching.config;
+  const Eigen::Vector3f &p1 = scene.points[reference], &n1 = scene.normals[reference];
+  matching.search.withinInAnyOrder(p1, matching.model.diameter_m, around.near);
+  const std::size_t count = around.near.size();
+  around.points.resize(count);
+  around.keys.resize(count);
+  around.alphas.resize(count);
+  around.weights.assign(count, kVoteUnit);
+  for (std::size_t k = 0; k < count; ++k)
   {
-    if (j == reference) continue;
-    const Eigen::Vector3f& p2 = matching.scene.points[j];
-    const Eigen::Vector3f& n2 = matching.scene.normals[j];
-    const PairFeature feature = pairFeature(p1, n1, p2, n2);
-    if (!matching.quantizer.covers(feature.distance_m)) continue;
-    const std::uint32_t key = matching.quantizer.key(feature);
-    const std::uint32_t begin = matching.model.offsets[key];
-    const std::uint32_t end = matching.model.offsets[key + 1];
-    if (begin == end) continue;
-    const std::uint16_t alpha = pairAlpha(rotation, p1, p2);
-    const std::uint32_t weight = voteWeight(n1, n2, matching.config.lambda, matching.config.v_min);
-    const std::uint32_t* const entries = matching.model.entries.data();
-    accumulator.vote(entries + begin, entries + end, alpha, weight);
+    const Eigen::Vector3f& n2 = scene.normals[around.near[k]];
+    around.points.set(k, scene.points[around.near[k]].data(), n2.data());
+    if (config.lambda > 0) around.weights[k] = voteWeight(n1, n2, config.lambda, config.v_min);
   }
+  pairKeys(around.points, pairReference(p1, n1), matching.quantizer.steps(), around.keys.data(),
+           around.alphas.data());
 }
 
 /// The pose that lays the model's reference point and normal onto the scene's, turned by alpha.
@@ -134,11 +135,13 @@ std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfMod
   const auto match = [&](std::size_t i)
   {
     if (deadline.passed()) return;
+    thread_local Neighborhood around;
     thread_local Accumulator accumulator;
     const auto reference = static_cast<std::uint32_t>(i * scene.size() / references);
     accumulator.reset(std::max<std::size_t>(1, model.references()),
                       static_cast<std::uint32_t>(config.model.n_angle));
-    castVotes(matching, reference, accumulator);
+    lookAround(matching, reference, around);
+    accumulator.add({data.offsets.data(), data.entries.data()}, around);
     peaks[i] = distinctPeaks(strongestCells(accumulator.cells(), config.peak_ratio), model, config,
                              [&](std::uint32_t cell)
                              { return poseOfCell(matching, reference, accumulator, cell); });

@@ -27,18 +27,18 @@ template <class Visitor>
 void forEachPair(const PpfModelData& data, std::size_t references,
                  const FeatureQuantizer& quantizer, Visitor visit)
 {
+  PointArrays points;
+  points.resize(data.points.size());
+  for (std::size_t j = 0; j < data.points.size(); ++j)
+    points.set(j, data.points[j].data(), data.normals[j].data());
+  std::vector<std::uint32_t> keys(points.size()), alphas(points.size());
   for (std::size_t r = 0; r < references; ++r)
   {
-    const Eigen::Matrix3f rotation = rotationToX(data.normals[r]);
-    for (std::size_t j = 0; j < data.points.size(); ++j)
-    {
-      if (r == j) continue;
-      const PairFeature feature =
-          pairFeature(data.points[r], data.normals[r], data.points[j], data.normals[j]);
-      if (!quantizer.covers(feature.distance_m)) continue;
-      const std::uint32_t alpha = pairAlpha(rotation, data.points[r], data.points[j]);
-      visit(quantizer.key(feature), static_cast<std::uint32_t>(r) << 16 | alpha);
-    }
+    pairKeys(points, pairReference(data.points[r], data.normals[r]), quantizer.steps(), keys.data(),
+             alphas.data());
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != r && keys[j] != kNoKey)
+        visit(keys[j], static_cast<std::uint32_t>(r) << 16 | alphas[j]);
   }
 }
 

@@ -31,19 +31,19 @@ double freeWeight(const PoseEvidence& evidence, const std::vector<std::uint8_t>&
 }
 }  // namespace
 
-std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidates,
+std::vector<SelectedPose> selectPoses(const std::vector<const PoseEvidence*>& candidates,
                                       std::size_t pixels)
 {
   std::vector<std::uint8_t> owned(pixels, 0);
   std::priority_queue<Entry> queue;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    queue.push({evidenceBalance(candidates[i], candidates[i].confirmed_weight), i, 0});
+    queue.push({evidenceBalance(*candidates[i], candidates[i]->confirmed_weight), i, 0});
   std::vector<SelectedPose> selected;
   while (!queue.empty())
   {
     const Entry best = queue.top();
     queue.pop();
-    const PoseEvidence& evidence = candidates[best.candidate];
+    const PoseEvidence& evidence = *candidates[best.candidate];
     const double confirmed = freeWeight(evidence, owned);
     if (best.round <
         selected.size())  // balances only fall: one that is up to date and on top is the best

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/sparse_fit.hpp"
 
+#include "ppf_bin_picking/core/alignment.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 
 #include <Eigen/Dense>
@@ -48,34 +49,19 @@ void chooseFacing(const PpfModelData& model, const CenteredPose& pose,
 }
 
 /// One step of point-to-plane ICP. False where too little is seen of the part.
-bool step(const RangeImage& image, const PpfModelData& model,
-          const std::vector<std::uint32_t>& chosen, float lever_m, float gate_m, CenteredPose& pose)
+bool step(const ImageArrays& image, const PointArrays& samples, float lever_m, float gate_m,
+          CenteredPose& pose)
 {
-  Matrix6f matrix = Matrix6f::Zero();
-  Vector6f right_side = Vector6f::Zero();
-  float weight = 0;
-  for (const std::uint32_t i : chosen)
-  {
-    const Eigen::Vector3f arm = pose.rotation * model.points[i];
-    const Eigen::Vector3f p = arm + pose.center;
-    int u, v;
-    if (!image.camera.pixelOf(p, u, v)) continue;
-    const std::size_t pixel = image.index(u, v);
-    const Eigen::Vector3f& normal = image.normals[pixel];
-    if (image.depth[pixel] == 0 || normal.dot(pose.rotation * model.normals[i]) < kMinNormalCosine)
-      continue;
-    const float residual = normal.dot(image.point(u, v) - p);
-    const float share = residual / gate_m;
-    if (std::abs(share) >= 1) continue;
-    const float w = (1 - share * share) * (1 - share * share);
-    const Vector6f jacobian = motionJacobian(arm / lever_m, normal);
-    matrix.noalias() += (w * jacobian) * jacobian.transpose();
-    right_side += (w * residual) * jacobian;
-    weight += w;
-  }
-  if (!(weight > 6)) return false;
+  Eigen::Isometry3f T_camera_samples = Eigen::Isometry3f::Identity();
+  T_camera_samples.linear() = pose.rotation;
+  T_camera_samples.translation() = pose.center;
+  NormalEquations equations = alignmentOf(
+      samples, image, T_camera_samples,
+      {{pose.center.x(), pose.center.y(), pose.center.z()}, lever_m, gate_m, kMinNormalCosine});
+  if (!(equations.weight > 6)) return false;
+  Matrix6f& matrix = equations.matrix;
   matrix.diagonal().array() += kDamping * matrix.trace() / 6;
-  const Vector6f motion = matrix.ldlt().solve(right_side);
+  const Vector6f motion = matrix.ldlt().solve(equations.right_side);
   const Eigen::Vector3f turn = motion.head<3>() / lever_m;
   const float angle = turn.norm();
   if (angle > 0)
@@ -121,16 +107,23 @@ float balanceOf(const RangeImage& image, const PpfModelData& model,
 SparseFit fitSparsely(const RangeImage& image, const PpfModel& model,
                       const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
-  thread_local std::vector<std::uint32_t> chosen;
+  thread_local std::vector<std::uint32_t> chosen_of_thread;
+  thread_local PointArrays samples_of_thread;
+  std::vector<std::uint32_t>& chosen = chosen_of_thread;
+  PointArrays& samples = samples_of_thread;
   const PpfModelData& data = model.data();
   CenteredPose pose{T_camera_model.linear(), T_camera_model * data.center};
   chooseFacing(data, pose, chosen);
+  samples.resize(0);
+  for (const std::uint32_t i : chosen)
+    samples.add(data.points[i].data(), data.normals[i].data());
+  const ImageArrays arrays = arraysOf(image);
   const int steps = std::min(kSteps, config.icp_iterations);
   for (int i = 0; i < steps; ++i)
   {
     const float progress = static_cast<float>(i) / static_cast<float>(kSteps - 1);
     const float gate_rel = kFirstGateRel * std::pow(kLastGateRel / kFirstGateRel, progress);
-    if (!step(image, data, chosen, kLeverRel * data.diameter_m, gate_rel * data.diameter_m, pose))
+    if (!step(arrays, samples, kLeverRel * data.diameter_m, gate_rel * data.diameter_m, pose))
       break;
   }
   chooseFacing(data, pose, chosen);

@@ -20,6 +20,7 @@ constexpr float kDepthToleranceRel = 0.004F;  // a sample this near to the depth
 constexpr float kMinViewCosine = 0.15F;       // flatter views decide nothing
 constexpr float kSameDirection = 0.8660254F;  // cosine of 30 degrees
 constexpr std::size_t kMaxSamples = 400000;
+constexpr double kMaxCountedCells = 4e6;  // more are sorted instead of counted
 
 struct SurfaceSample
 {
@@ -82,6 +83,53 @@ void orientTriangles(TriangleMesh& mesh, std::vector<SurfaceSample>& samples)
     if (balance[i] < 0) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   for (SurfaceSample& sample : samples)
     if (balance[sample.triangle] < 0) std::swap(sample.seen_front, sample.seen_back);
+}
+using Cell = std::array<std::int32_t, 3>;
+
+/// The box of some cells.
+struct CellRange
+{
+  explicit CellRange(const std::vector<Cell>& cells)
+  {
+    for (const Cell& cell : cells)
+      for (std::size_t k = 0; k < 3; ++k)
+        first[k] = std::min(first[k], cell[k]), last[k] = std::max(last[k], cell[k]);
+  }
+  double size(std::size_t k) const { return 1.0 + last[k] - first[k]; }
+  double count() const { return size(0) * size(1) * size(2); }
+  /// In ascending order of the cells.
+  std::size_t number(const Cell& cell) const
+  {
+    std::size_t number = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      number =
+          number * static_cast<std::size_t>(size(k)) + static_cast<std::size_t>(cell[k] - first[k]);
+    return number;
+  }
+
+  Cell first = {INT32_MAX, INT32_MAX, INT32_MAX};
+  Cell last = {INT32_MIN, INT32_MIN, INT32_MIN};
+};
+
+/// Indices of the cells in ascending order, of equal ones as they come.
+std::vector<std::uint32_t> orderByCell(const std::vector<Cell>& cells)
+{
+  std::vector<std::uint32_t> order(cells.size());
+  const CellRange range(cells);
+  if (cells.empty() || range.count() > kMaxCountedCells)
+  {
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return cells[a] < cells[b]; });
+    return order;
+  }
+  std::vector<std::uint32_t> next(static_cast<std::size_t>(range.count()) + 1, 0);
+  for (const Cell& cell : cells)
+    ++next[range.number(cell) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    order[next[range.number(cells[i])]++] = static_cast<std::uint32_t>(i);
+  return order;
 }
 }  // namespace
 
@@ -169,15 +217,11 @@ OrientedPoints sampleVisibleSurface(TriangleMesh& mesh, float spacing_m)
 
 OrientedPoints thinOut(const OrientedPoints& cloud, float cell_m)
 {
-  using Cell = std::array<std::int32_t, 3>;
   std::vector<Cell> cells(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
     for (int k = 0; k < 3; ++k)
       cells[i][k] = static_cast<std::int32_t>(std::floor(cloud.points[i][k] / cell_m));
-  std::vector<std::uint32_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return cells[a] < cells[b]; });
-
+  const std::vector<std::uint32_t> order = orderByCell(cells);
   OrientedPoints thinned;
   struct Direction
   {

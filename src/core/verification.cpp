@@ -53,6 +53,7 @@ public:
   PoseEvidence run()
   {
     behind_m_.assign(view_.depth.size(), std::numeric_limits<float>::quiet_NaN());
+    evidence_.confirmed.reserve(view_.depth.size() / 2);
     for (int row = 0; row < view_.height; ++row)
       for (int column = 0; column < view_.width; ++column)
         if (view_.depthAt(column, row) > 0) comparePixel(column, row);
@@ -171,7 +172,7 @@ private:
   /// Follows the measured surface across the outline.
   void compareOutline()
   {
-    for (const OutlinePoint& point : outlineOf(view_, image_.camera, jump_m_, 1))
+    for (const OutlinePoint& point : outlineOf(view_, image_.camera, jump_m_, edge_reach_px_, 1))
     {
       const OutlineEnd end = matchOutline(image_, point, point.point, gate_m_, edge_reach_px_).end;
       if (end == OutlineEnd::kHidden || end == OutlineEnd::kMissing) continue;

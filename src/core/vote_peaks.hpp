@@ -5,6 +5,8 @@
 #include "ppf_bin_picking/core/detector_config.hpp"
 #include "ppf_bin_picking/core/ppf_model.hpp"
 
+#include "vote_kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,12 +20,11 @@ constexpr std::size_t kMaxPeakCells = 200;  ///< Cells that are looked at for fu
 inline std::vector<std::uint32_t> strongestCells(const std::vector<std::uint32_t>& votes,
                                                  double share)
 {
-  const std::uint32_t most = *std::max_element(votes.begin(), votes.end());
+  const std::uint32_t most = largestOf(votes.data(), votes.size());
   const auto least =
       std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::ceil(share * most)));
   std::vector<std::uint32_t> strongest;
-  for (std::uint32_t cell = 0; cell < votes.size(); ++cell)
-    if (votes[cell] >= least) strongest.push_back(cell);
+  collectFrom(least, votes.data(), votes.size(), strongest);
   std::stable_sort(strongest.begin(), strongest.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return votes[a] > votes[b]; });
   if (strongest.size() > kMaxPeakCells) strongest.resize(kMaxPeakCells);

@@ -167,8 +167,11 @@ void selection(State& state, const Input& input)
   for (const std::vector<Eigen::Isometry3f>* poses : {&pile.true_T, &pile.shifted_T})
     for (const Eigen::Isometry3f& T_camera_model : *poses)
       evidence.push_back(gatherEvidence(pile.image, part.model, T_camera_model, part.config));
+  std::vector<const PoseEvidence*> pointers;
+  for (const PoseEvidence& one : evidence)
+    pointers.push_back(&one);
   for (auto _ : state)
-    benchmark::DoNotOptimize(selectPoses(evidence, pile.image.depth.size()));
+    benchmark::DoNotOptimize(selectPoses(pointers, pile.image.depth.size()));
   countRate(state, "poses/s", evidence.size());
 }
 

@@ -39,7 +39,7 @@ protected:
 
 TEST_F(SquareBeforeWall, hasItsBoundaryOnItsSidesWithFramesThatPointOffIt)
 {
-  const std::vector<BoundaryPoint> points = boundaryOf(image(), kJump_m);
+  const std::vector<BoundaryPoint> points = boundaryOf(image(), kJump_m, 1);
   const Eigen::Isometry3f T_square_camera = T_camera_square_.inverse().cast<float>();
   std::array<int, 4> of_side{};
   std::size_t well_directed = 0;
@@ -65,22 +65,22 @@ TEST_F(SquareBeforeWall, hasItsBoundaryOnItsSidesWithFramesThatPointOffIt)
 TEST_F(SquareBeforeWall, hasNoBoundaryWithoutAStepBehindIt)
 {
   RangeImage alone = imageOf({{squareMesh(0.06F), T_camera_square_}}, kNormalGate_m);
-  EXPECT_TRUE(boundaryOf(alone, kJump_m).empty()) << "nothing measured is no step";
+  EXPECT_TRUE(boundaryOf(alone, kJump_m, 1).empty()) << "nothing measured is no step";
   const RangeImage flat = imageOf({wall(0.65)}, kNormalGate_m);
-  EXPECT_TRUE(boundaryOf(flat, kJump_m).empty());
-  EXPECT_TRUE(boundaryOf(image(), 0.2F).empty()) << "the wall is less than 0.2 m behind";
+  EXPECT_TRUE(boundaryOf(flat, kJump_m, 1).empty());
+  EXPECT_TRUE(boundaryOf(image(), 0.2F, 1).empty()) << "the wall is less than 0.2 m behind";
 }
 
 TEST_F(SquareBeforeWall, keepsItsBoundaryWhereAShadowLiesBesideIt)
 {
   RangeImage with_shadow = image();
-  const std::size_t before = boundaryOf(with_shadow, kJump_m).size();
+  const std::size_t before = boundaryOf(with_shadow, kJump_m, 1).size();
   const RangeImage whole = with_shadow;
   for (int v = 0; v < whole.camera.height; ++v)
     for (int u = 6; u < whole.camera.width; ++u)
       if (whole.depth[whole.index(u, v)] > 0.64F && whole.depth[whole.index(u - 6, v)] < 0.63F)
         with_shadow.depth[whole.index(u, v)] = 0;
-  const std::size_t after = boundaryOf(with_shadow, kJump_m).size();
+  const std::size_t after = boundaryOf(with_shadow, kJump_m, 1).size();
   EXPECT_GT(static_cast<double>(after), 0.9 * static_cast<double>(before));
 }
 
@@ -88,7 +88,7 @@ TEST_F(SquareBeforeWall, isLeftOutWhereTheRegionEnds)
 {
   RangeImage outside = image();
   outside.in_roi.assign(outside.in_roi.size(), 0);
-  EXPECT_TRUE(boundaryOf(outside, kJump_m).empty());
+  EXPECT_TRUE(boundaryOf(outside, kJump_m, 1).empty());
 }
 
 TEST(ThinOutBoundary, joinsPointsOfACellOnlyIfTheyPointTheSameWay)
@@ -119,7 +119,7 @@ protected:
     const auto diameter_m = static_cast<float>(model_.diameter());
     return thinOutBoundary(
         boundaryOf(imageOf({wall(0.75), {boxMesh(size_m_), T_camera_box}}, kNormalGate_m),
-                   boundaryJump(diameter_m)),
+                   boundaryJump(diameter_m), 1),
         boundarySpacing(diameter_m));
   }
 
@@ -189,9 +189,9 @@ TEST_F(BoxByItsEdges, votesAsAPlainCountOverAllPairsDoes)
     std::vector<int> votes(table.points.size(), 0);
     for (const BoundaryPoint& second : scene)
     {
-      const auto key = quantizer.key(first, first.frame(), second);
-      if (!key) continue;
-      for (std::uint32_t k = table.offsets[*key]; k < table.offsets[*key + 1]; ++k)
+      const std::uint32_t key = quantizer.key(boundaryReference(first), second);
+      if (key == kNoKey) continue;
+      for (std::uint32_t k = table.offsets[key]; k < table.offsets[key + 1]; ++k)
         ++votes[table.entries[k]];
     }
     const int most = *std::max_element(votes.begin(), votes.end());
@@ -221,11 +221,11 @@ TEST(BoundaryQuantizer, numbersAPairTheSameWhereverItLies)
       return BoundaryPoint{motion * p.point, motion.linear() * p.normal,
                            motion.linear() * p.outward};
     };
-    const auto key = quantizer.key(a, a.frame(), b);
-    if (!key) continue;
+    const std::uint32_t key = quantizer.key(boundaryReference(a), b);
+    if (key == kNoKey) continue;
     ++keyed;
-    EXPECT_LT(*key, BoundaryQuantizer::keyCount());
-    const auto moved_key = quantizer.key(moved(a), moved(a).frame(), moved(b));
+    EXPECT_LT(key, BoundaryQuantizer::keyCount());
+    const std::uint32_t moved_key = quantizer.key(boundaryReference(moved(a)), moved(b));
     same += moved_key == key ? 1 : 0;
   }
   EXPECT_GT(keyed, 500);

@@ -35,7 +35,7 @@ TEST(OutlineOf, aBoxHasItOnTheFourSidesOfItsFrontFacePointingOff)
 {
   const RenderedPart view = rendered(boxMesh({0.08F, 0.05F, 0.03F}), straightAhead(0.6));
   const float half_u_px = 0.04F / 0.585F * 600, half_v_px = 0.025F / 0.585F * 600;
-  const auto outline = outlineOf(view, smallCamera(), kJump_m, 1);
+  const auto outline = outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 1);
   EXPECT_EQ(outline.size(), static_cast<std::size_t>(2 * (view.width + view.height) - 4));
   for (const OutlinePoint& point : outline)
   {
@@ -61,8 +61,8 @@ TEST(OutlineOf, aBoxHasItOnTheFourSidesOfItsFrontFacePointingOff)
 TEST(OutlineOf, takesEverySoManyPixels)
 {
   const RenderedPart view = rendered(boxMesh({0.08F, 0.05F, 0.03F}), straightAhead(0.6));
-  const auto all = outlineOf(view, smallCamera(), kJump_m, 1);
-  const auto third = outlineOf(view, smallCamera(), kJump_m, 3);
+  const auto all = outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 1);
+  const auto third = outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 3);
   ASSERT_EQ(third.size(), (all.size() + 2) / 3);
   for (std::size_t i = 0; i < third.size(); ++i)
     EXPECT_EQ(third[i].point, all[3 * i].point);
@@ -71,7 +71,7 @@ TEST(OutlineOf, takesEverySoManyPixels)
 TEST(OutlineOf, aSphereHasItOnItsSilhouetteAlone)
 {
   const RenderedPart view = rendered(sphereMesh(0.04F), straightAhead(0.6));
-  const auto outline = outlineOf(view, smallCamera(), kJump_m, 1);
+  const auto outline = outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 1);
   // The cone that touches the sphere: sin(angle) = radius / distance.
   const float radius_px = 600 * std::tan(std::asin(0.04F / 0.6F));
   ASSERT_GT(outline.size(), static_cast<std::size_t>(5.5F * radius_px));
@@ -97,7 +97,7 @@ TEST(OutlineOf, rimsWithinThePartBelongToItOnTheirUpperSide)
                  [](const OutlinePoint& p) { return p.point.head<2>().norm() < 0.03F; });
     return inner;
   };
-  const auto rim = within(outlineOf(view, smallCamera(), kJump_m, 1));
+  const auto rim = within(outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 1));
   EXPECT_NEAR(static_cast<double>(rim.size()), 4 * (0.02 / 0.585 * 600 - 1), 4);
   for (const OutlinePoint& point : rim)
   {
@@ -106,7 +106,8 @@ TEST(OutlineOf, rimsWithinThePartBelongToItOnTheirUpperSide)
     for (std::size_t i = kOutlineReach_px; i < point.profile_m.size(); ++i)
       EXPECT_NEAR(point.profile_m[i], 0, 1e-5) << "the post's face goes on, not the plate";
   }
-  EXPECT_TRUE(within(outlineOf(view, smallCamera(), 0.016F, 1)).empty()) << "lower than the fall";
+  EXPECT_TRUE(within(outlineOf(view, smallCamera(), 0.016F, kOutlineReach_px, 1)).empty())
+      << "lower than the fall";
 }
 
 TEST(OutlineOf, continuesThePlaneOfASlantedFaceBeyondIt)
@@ -116,7 +117,7 @@ TEST(OutlineOf, continuesThePlaneOfASlantedFaceBeyondIt)
   const RenderedPart view = rendered(squareMesh(0.04F), T_camera_square);
   const Eigen::Vector3d normal = T_camera_square.linear().col(2);
   const double plane = normal.dot(T_camera_square.translation());
-  const auto outline = outlineOf(view, smallCamera(), kJump_m, 1);
+  const auto outline = outlineOf(view, smallCamera(), kJump_m, kOutlineReach_px, 1);
   ASSERT_GT(outline.size(), 200U);
   for (const OutlinePoint& point : outline)
     for (int t = -kOutlineReach_px; t <= kOutlineReach_px; ++t)
@@ -132,7 +133,7 @@ TEST(OutlineOf, continuesThePlaneOfASlantedFaceBeyondIt)
 
 TEST(OutlineOf, isEmptyWithoutAPart)
 {
-  EXPECT_TRUE(outlineOf(RenderedPart(), smallCamera(), kJump_m, 1).empty());
+  EXPECT_TRUE(outlineOf(RenderedPart(), smallCamera(), kJump_m, kOutlineReach_px, 1).empty());
 }
 
 /// An outline point at the middle of an image, and what is measured across it.

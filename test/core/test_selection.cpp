@@ -60,19 +60,27 @@ std::vector<SelectedPose> slowSelection(const std::vector<PoseEvidence>& candida
   }
 }
 
+std::vector<SelectedPose> select(const std::vector<PoseEvidence>& candidates)
+{
+  std::vector<const PoseEvidence*> pointers;
+  for (const PoseEvidence& evidence : candidates)
+    pointers.push_back(&evidence);
+  return selectPoses(pointers, kPixels);
+}
+
 TEST(SelectPoses, leavesOutAPoseThatClaimsTakenPixels)
 {
-  const auto selected = selectPoses({confirming(0, 100), confirming(0, 90)}, kPixels);
+  const auto selected = select({confirming(0, 100), confirming(0, 90)});
   EXPECT_EQ(indices(selected), (std::vector<std::size_t>{0}));
 }
 
 TEST(SelectPoses, keepsAPoseWithEnoughPixelsOfItsOwn)
 {
   // 41 of its 100 pixels are its own: a score of 0.41. 39 are not enough.
-  const auto kept = selectPoses({confirming(0, 110), confirming(51, 100)}, kPixels);
+  const auto kept = select({confirming(0, 110), confirming(51, 100)});
   ASSERT_EQ(indices(kept), (std::vector<std::size_t>{0, 1}));
   EXPECT_DOUBLE_EQ(kept[1].confirmed, 41);
-  const auto dropped = selectPoses({confirming(0, 110), confirming(49, 100)}, kPixels);
+  const auto dropped = select({confirming(0, 110), confirming(49, 100)});
   EXPECT_EQ(indices(dropped), (std::vector<std::size_t>{0}));
 }
 
@@ -80,8 +88,8 @@ TEST(SelectPoses, takesTheBestBalanceFirstAndTheFirstOfEqualOnes)
 {
   PoseEvidence contradicted = confirming(0, 100);
   contradicted.looked_through = 20;  // worth 60 pixels
-  const auto selected = selectPoses(
-      {confirming(100, 50), contradicted, confirming(200, 90), confirming(300, 50)}, kPixels);
+  const auto selected =
+      select({confirming(100, 50), contradicted, confirming(200, 90), confirming(300, 50)});
   EXPECT_EQ(indices(selected), (std::vector<std::size_t>{2, 0, 3, 1}));
   EXPECT_DOUBLE_EQ(selected[3].balance, 40);
 }
@@ -89,8 +97,7 @@ TEST(SelectPoses, takesTheBestBalanceFirstAndTheFirstOfEqualOnes)
 TEST(SelectPoses, rechecksThePoseOnTopAfterOthersTookItsPixels)
 {
   // The second has the second best balance until the first takes half of it.
-  const auto selected =
-      selectPoses({confirming(0, 100), confirming(50, 95), confirming(200, 30)}, kPixels);
+  const auto selected = select({confirming(0, 100), confirming(50, 95), confirming(200, 30)});
   EXPECT_EQ(indices(selected), (std::vector<std::size_t>{0, 2, 1}));
   EXPECT_DOUBLE_EQ(selected[2].confirmed, 45);
   EXPECT_DOUBLE_EQ(selected[2].balance, 45 - 50);
@@ -100,7 +107,7 @@ TEST(SelectPoses, leavesOutNoneForANegativeBalanceAlone)
 {
   PoseEvidence hidden = confirming(0, 50);
   hidden.occluded = 1000;
-  const auto selected = selectPoses({hidden}, kPixels);
+  const auto selected = select({hidden});
   ASSERT_EQ(selected.size(), 1U);
   EXPECT_LT(selected[0].balance, 0);
 }
@@ -111,9 +118,8 @@ TEST(SelectPoses, leavesOutLowScoresAndPosesWithoutEvidence)
   poor.looked_through = 61;
   PoseEvidence fair = confirming(100, 41);
   fair.looked_through = 59;
-  EXPECT_EQ(indices(selectPoses({poor, PoseEvidence(), fair}, kPixels)),
-            (std::vector<std::size_t>{2}));
-  EXPECT_TRUE(selectPoses({}, kPixels).empty());
+  EXPECT_EQ(indices(select({poor, PoseEvidence(), fair})), (std::vector<std::size_t>{2}));
+  EXPECT_TRUE(select({}).empty());
 }
 
 TEST(SelectPoses, aPoseLeftOutTakesNoPixels)
@@ -122,7 +128,7 @@ TEST(SelectPoses, aPoseLeftOutTakesNoPixels)
   large.looked_through = 16;  // balance 52, but no pixels are taken by what is left out
   large.missing = 400;        // score 100 / 276
   large.outline_held = 100;   // the best balance all the same
-  const auto selected = selectPoses({confirming(0, 60), large}, kPixels);
+  const auto selected = select({confirming(0, 60), large});
   EXPECT_EQ(indices(selected), (std::vector<std::size_t>{0}));
   EXPECT_DOUBLE_EQ(selected[0].confirmed, 60);
 }
@@ -149,7 +155,7 @@ TEST(SelectPoses, selectsAsAPlainGreedySearchDoes)
       evidence.outline_held = 5 * uniform(rng);
       evidence.outline_broken = 3 * uniform(rng);
     }
-    const auto fast = selectPoses(candidates, kPixels), slow = slowSelection(candidates);
+    const auto fast = select(candidates), slow = slowSelection(candidates);
     ASSERT_EQ(indices(fast), indices(slow));
     for (std::size_t i = 0; i < fast.size(); ++i)
     {

@@ -6,6 +6,7 @@ set(core_tests
     test_dbscan
     test_detector
     test_detector_config
+    test_kernels
     test_mismatch
     test_model_renderer
     test_neighbor_search

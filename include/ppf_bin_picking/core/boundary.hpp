@@ -29,8 +29,9 @@ struct BoundaryPoint
 /// The boundary points of an image, in the camera frame: pixels of the region of interest beyond
 /// which the image falls back by more than a step, perhaps with a gap of missing pixels between.
 /// Surfaces flat to the line of sight are left out, since their edge moves with the camera.
-/// @param jump_m  Least fall.
-std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m);
+/// @param jump_m   Least fall.
+/// @param threads  0: one per core.
+std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m, int threads);
 
 /// Thins out boundary points to one a cell of a cubic grid and direction: points of a cell whose
 /// normals and outward directions lie within 30 degrees of the first become their mean. Ordered by

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "ppf_bin_picking/core/boundary.hpp"
+#include "ppf_bin_picking/core/boundary_kernel.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/symmetry.hpp"
 
 #include <Eigen/Geometry>
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -33,16 +33,18 @@ public:
   /// Keys run from 0 to keyCount() - 1.
   static std::uint32_t keyCount();
 
-  /// @param frame  first.frame(), passed in because it serves many pairs.
-  /// @return Nothing for pairs that are too long, or too short to tell anything.
-  std::optional<std::uint32_t> key(const BoundaryPoint& first, const Eigen::Matrix3f& frame,
-                                   const BoundaryPoint& second) const;
+  /// @return kNoKey for pairs that are too long, or too short to tell anything.
+  std::uint32_t key(const BoundaryReference& first, const BoundaryPoint& second) const;
+
+  /// The same for boundaryKeys.
+  const BoundarySteps& steps() const { return steps_; }
 
 private:
-  float inverse_cell_;  ///< [1/m]
-  float shortest_m_;
-  float longest_m_;
+  BoundarySteps steps_;
 };
+
+/// The first point of pairs, for BoundaryQuantizer::key and boundaryKeys.
+BoundaryReference boundaryReference(const BoundaryPoint& first);
 
 /// The table of the pairs that some viewpoint around the part sees together. Of first points that
 /// the discrete symmetries lay onto each other one is enough.

@@ -21,7 +21,8 @@ struct OutlinePoint
   Eigen::Vector3f point;      ///< On the part, camera frame [m].
   Eigen::Vector2f direction;  ///< Out of the part, in the image, unit length.
   /// Depth that the part's surface has, or would have if it went on, at the pixels across the
-  /// outline, relative to the depth of the point [m]; the middle entry is the point's own.
+  /// outline, relative to the depth of the point [m]; the middle entry is the point's own. 0 beyond
+  /// the reach that was asked for.
   std::array<float, 2 * kOutlineReach_px + 1> profile_m;
 };
 
@@ -57,10 +58,11 @@ inline int outlineDistance(const RenderedPart& view, const PinholeCamera& camera
 
 /// Points of the outline of a rendered part: pixels with the part's surface on one side and, on the
 /// other, nothing or a part of it that lies deeper: rims of holes belong to the outline.
-/// @param jump_m  Least fall within the part.
-/// @param stride  Every so many of them.
+/// @param jump_m    Least fall within the part.
+/// @param reach_px  So far to each side the profile is filled; at most kOutlineReach_px.
+/// @param stride    Every so many of them.
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
-                                    float jump_m, int stride);
+                                    float jump_m, int reach_px, int stride);
 
 /// What was measured across an outline point.
 enum class OutlineEnd
@@ -83,7 +85,7 @@ struct OutlineMatch
 /// Follows the measured surface across an outline point from the inside out.
 /// @param point_camera  The outline point where the part is now, camera frame [m].
 /// @param gate_m        Depth by which the surface may differ from the part's.
-/// @param reach_px      At most kOutlineReach_px.
+/// @param reach_px      At most that of the outline's profile.
 OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
                           const Eigen::Vector3f& point_camera, float gate_m, int reach_px);
 }  // namespace ppf_bin_picking

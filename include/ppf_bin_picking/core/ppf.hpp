@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ppf_bin_picking/core/detector_config.hpp"
+#include "ppf_bin_picking/core/pair_kernel.hpp"
 
 #include <Eigen/Geometry>
 
@@ -34,23 +35,21 @@ public:
   /// Keys run from 0 to keyCount() - 1.
   std::uint32_t keyCount() const
   {
-    return distance_bins_ * angle_bins_ * angle_bins_ * angle_bins_;
+    return static_cast<std::uint32_t>(steps_.distance_bins * steps_.angle_bins * steps_.angle_bins *
+                                      steps_.angle_bins);
   }
 
   /// True if a pair of this length [m] has a key.
-  bool covers(float distance_m) const { return distance_m <= diameter_m_; }
+  bool covers(float distance_m) const { return distance_m <= steps_.diameter_m; }
 
   /// The cell of a feature. The distance must be covered.
   std::uint32_t key(const PairFeature& feature) const;
 
-private:
-  std::uint32_t angleBin(float angle_rad) const;
+  /// The same for pairKeys.
+  const KeySteps& steps() const { return steps_; }
 
-  float diameter_m_;
-  float inverse_distance_step_;  ///< [1/m]
-  float inverse_angle_step_;     ///< [1/rad]
-  std::uint32_t distance_bins_;
-  std::uint32_t angle_bins_;
+private:
+  KeySteps steps_;
 };
 
 /// A rotation that turns a unit normal onto the x axis; the same for equal normals.
@@ -62,6 +61,6 @@ Eigen::Matrix3f rotationToX(const Eigen::Vector3f& normal);
 std::uint16_t pairAlpha(const Eigen::Matrix3f& R_local_cloud, const Eigen::Vector3f& p1,
                         const Eigen::Vector3f& p2);
 
-/// Full turn of pairAlpha.
-constexpr std::uint32_t kAlphaTurn = 65536;
+/// The first point of pairs, for pairKeys.
+PairReference pairReference(const Eigen::Vector3f& p1, const Eigen::Vector3f& n1);
 }  // namespace ppf_bin_picking

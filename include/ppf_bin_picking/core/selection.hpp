@@ -19,8 +19,9 @@ struct SelectedPose
 /// Lets poses compete for pixels: again and again the pose with the best balance of evidence is
 /// taken and owns the pixels that confirm it; they speak against every other pose that claims them.
 /// Poses left with a score below 0.4 are left out; a negative balance alone leaves none out.
-/// @param pixels  Of the image.
+/// @param candidates  None is null.
+/// @param pixels      Of the image.
 /// @return In the order taken.
-std::vector<SelectedPose> selectPoses(const std::vector<PoseEvidence>& candidates,
+std::vector<SelectedPose> selectPoses(const std::vector<const PoseEvidence*>& candidates,
                                       std::size_t pixels);
 }  // namespace ppf_bin_picking
