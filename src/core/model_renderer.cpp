@@ -81,8 +81,7 @@ RenderableMesh::RenderableMesh(const TriangleMesh& given) : mesh(given)
 void renderPart(const RenderableMesh& part, const Eigen::Isometry3f& T_camera_model,
                 const PinholeCamera& camera, RenderedPart& rendered)
 {
-  thread_local std::vector<ImageVertex> vertices_of_thread;
-  std::vector<ImageVertex>& vertices = vertices_of_thread;
+  std::vector<ImageVertex> vertices;
   transformVertices(part.mesh, T_camera_model, camera, vertices);
   placeWindow(vertices, camera, rendered);
   const DrawWindow window{rendered.left,   rendered.top,          rendered.width,

@@ -32,6 +32,39 @@ struct Window
   }
 };
 
+/// A depth and whether its point lies in the region.
+struct BlockPixel
+{
+  float depth_m;
+  std::uint8_t inside;
+
+  bool operator<(const BlockPixel& other) const { return depth_m < other.depth_m; }
+};
+
+/// The mean depth of the surface that the median belongs to. Reorders the block, which is not
+/// empty.
+BlockPixel averageOf(std::vector<BlockPixel>& block, float same_surface_m)
+{
+  float sum = 0, least = block.front().depth_m, most = least;
+  std::size_t inside = 0;
+  for (const BlockPixel& pixel : block)
+  {
+    sum += pixel.depth_m, inside += pixel.inside;
+    least = std::min(least, pixel.depth_m), most = std::max(most, pixel.depth_m);
+  }
+  const bool is_alike = inside == 0 || inside == block.size();
+  if (is_alike && most - least < same_surface_m)  // the usual case, without sorting
+    return {sum / static_cast<float>(block.size()), block.front().inside};
+  const auto middle = block.begin() + static_cast<std::ptrdiff_t>((block.size() - 1) / 2);
+  std::nth_element(block.begin(), middle, block.end());
+  const BlockPixel median = *middle;
+  float count = 0;
+  sum = 0;
+  for (const BlockPixel& pixel : block)
+    if (std::abs(pixel.depth_m - median.depth_m) < same_surface_m) sum += pixel.depth_m, count += 1;
+  return {sum / count, median.inside};
+}
+
 /// Averages blocks of factor x factor pixels: of each block the surface of its median depth.
 RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>& inside,
                         const PinholeCamera& camera, const Window& window, int factor,
@@ -52,7 +85,7 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
   const auto average_row = [&](std::size_t row)
   {
     const int v = static_cast<int>(row);
-    std::vector<std::pair<float, std::uint8_t>> block;
+    std::vector<BlockPixel> block;
     for (int u = 0; u < image.camera.width; ++u)
     {
       block.clear();
@@ -62,17 +95,12 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
           const std::size_t i =
               static_cast<std::size_t>(window.top + v * factor + dv) * cloud.width +
               static_cast<std::size_t>(window.left + u * factor + du);
-          if (measured(cloud.points[i])) block.emplace_back(cloud.points[i].z(), inside[i]);
+          if (measured(cloud.points[i])) block.push_back({cloud.points[i].z(), inside[i]});
         }
       if (block.empty()) continue;
-      const auto middle = block.begin() + static_cast<std::ptrdiff_t>((block.size() - 1) / 2);
-      std::nth_element(block.begin(), middle, block.end());
-      const auto [median, median_inside] = *middle;
-      float sum = 0, count = 0;
-      for (const auto& [z, z_inside] : block)
-        if (std::abs(z - median) < same_surface_m) sum += z, count += 1;
-      image.depth[image.index(u, v)] = sum / count;
-      image.in_roi[image.index(u, v)] = median_inside;
+      const BlockPixel pixel = averageOf(block, same_surface_m);
+      image.depth[image.index(u, v)] = pixel.depth_m;
+      image.in_roi[image.index(u, v)] = pixel.inside;
     }
   };
   parallelFor(threads, static_cast<std::size_t>(image.camera.height), average_row);

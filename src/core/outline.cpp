@@ -93,9 +93,7 @@ bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int colu
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
                                     float jump_m, int reach_px, int stride)
 {
-  thread_local std::vector<std::uint8_t> marks_of_thread;
-  std::vector<std::uint8_t>& marks = marks_of_thread;
-  marks.resize(view.depth.size());
+  std::vector<std::uint8_t> marks(view.depth.size());
   markFalls(view.depth.data(), view.width, view.height, jump_m, marks.data());
   std::vector<OutlinePoint> outline;
   int seen = 0;

@@ -166,7 +166,7 @@ Matrix6d poseCovariance(const RangeImage& image, const PpfModel& model,
                         const Eigen::Isometry3d& T_cloud_model, const DetectorConfig& config)
 {
   const Eigen::Isometry3f pose = T_cloud_model.cast<float>();
-  thread_local RenderedPart view;
+  RenderedPart view;
   renderPart(model.renderable(), pose, image.camera, view);
   const Eigen::Vector3f center = pose * model.data().center;
   const double lever_m = kLeverRel * model.diameter();

@@ -112,7 +112,7 @@ PoseInformation gatherInformation(const RangeImage& image, const PpfModel& model
                                   const Eigen::Isometry3f& T_camera_model,
                                   const DetectorConfig& config)
 {
-  thread_local RenderedPart view;
+  RenderedPart view;
   renderPart(model.renderable(), T_camera_model, image.camera, view);
   const auto diameter_m = static_cast<float>(model.diameter());
   const float gate_m = static_cast<float>(config.depth_gate_rel) * diameter_m;

@@ -33,6 +33,7 @@ constexpr float kPriorShare = 1e-3F;
 /// What the camera sees of a free part at a pose.
 struct VisiblePart
 {
+  RenderedPart view;
   PointArrays surface;                          ///< About kSurfacePoints, evenly, mesh frame [m].
   std::vector<OutlinePoint> outline;            ///< Points as seen from the pose of rendering.
   std::vector<Eigen::Vector3f> outline_points;  ///< The outline's points, mesh frame [m].
@@ -41,8 +42,7 @@ struct VisiblePart
 void seeFrom(const PpfModel& model, const Eigen::Isometry3f& T_camera_model,
              const PinholeCamera& camera, int reach_px, VisiblePart& part)
 {
-  thread_local RenderedPart view_of_thread;
-  RenderedPart& view = view_of_thread;
+  RenderedPart& view = part.view;
   renderPart(model.renderable(), T_camera_model, camera, view);
   part.surface.resize(0);
   const auto covered = static_cast<std::size_t>(
@@ -133,8 +133,7 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
   const float last_gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * diameter;
   Eigen::Isometry3f pose = T_camera_model;
   const ImageArrays arrays = arraysOf(image);
-  thread_local VisiblePart part_of_thread;
-  VisiblePart& part = part_of_thread;
+  VisiblePart part;
   for (int i = 0; i < config.icp_iterations; ++i)
   {
     const float progress =

@@ -107,14 +107,11 @@ float balanceOf(const RangeImage& image, const PpfModelData& model,
 SparseFit fitSparsely(const RangeImage& image, const PpfModel& model,
                       const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
-  thread_local std::vector<std::uint32_t> chosen_of_thread;
-  thread_local PointArrays samples_of_thread;
-  std::vector<std::uint32_t>& chosen = chosen_of_thread;
-  PointArrays& samples = samples_of_thread;
+  std::vector<std::uint32_t> chosen;
   const PpfModelData& data = model.data();
   CenteredPose pose{T_camera_model.linear(), T_camera_model * data.center};
   chooseFacing(data, pose, chosen);
-  samples.resize(0);
+  PointArrays samples;
   for (const std::uint32_t i : chosen)
     samples.add(data.points[i].data(), data.normals[i].data());
   const ImageArrays arrays = arraysOf(image);

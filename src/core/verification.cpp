@@ -223,7 +223,7 @@ void addSlideStop(const Eigen::Vector2f& outward, SlideStops& stops)
 PoseEvidence gatherEvidence(const RangeImage& image, const PpfModel& model,
                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
-  thread_local RenderedPart view;
+  RenderedPart view;
   renderPart(model.renderable(), T_camera_model, image.camera, view);
   return Comparison(image, view, config, static_cast<float>(model.diameter())).run();
 }
