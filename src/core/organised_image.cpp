@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -127,10 +128,16 @@ RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera
                             const RangeImageOptions& options)
 {
   Window window;
-  std::size_t i = 0;
   for (int v = 0; v < camera.height; ++v)
-    for (int u = 0; u < camera.width; ++u, ++i)
-      if (inside[i]) window.add(u, v);
+  {
+    const auto row = inside.begin() + static_cast<std::ptrdiff_t>(v) * camera.width;
+    const auto first = std::find(row, row + camera.width, 1);
+    if (first == row + camera.width) continue;
+    const auto last = std::find(std::make_reverse_iterator(row + camera.width),
+                                std::make_reverse_iterator(first), 1);
+    window.add(static_cast<int>(first - row), v);
+    window.add(static_cast<int>(last.base() - row) - 1, v);
+  }
   const double per_meter = camera.fx / near_z;
   const double margin_px = kMarginRel * options.largest_diameter_m * per_meter;
   const int largest_side_px = std::max(camera.width, camera.height);

@@ -67,9 +67,17 @@ float nearDepth(const PointCloud& cloud, const std::vector<std::uint8_t>& inside
 {
   const std::size_t stride = std::max<std::size_t>(1, count / kDepthSamples) | 1;
   std::vector<float> depths;
-  std::size_t seen = 0;
+  std::size_t left = 0;  // to the next that is taken
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (inside[i] && seen++ % stride == 0) depths.push_back(cloud.points[i].z());
+  {
+    if (!inside[i]) continue;
+    if (left == 0)
+    {
+      depths.push_back(cloud.points[i].z());
+      left = stride;
+    }
+    --left;
+  }
   return percentile(depths, kStrayShare);
 }
 }  // namespace

@@ -55,6 +55,7 @@ void addBoundaryVotes(const VoteTable& table, std::size_t pairs, const std::uint
       ++votes[*e];
   }
 }
+
 PPF_BIN_PICKING_CLONES
 std::uint32_t largestOf(const std::uint32_t* numbers, std::size_t count)
 {

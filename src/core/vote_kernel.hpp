@@ -37,6 +37,7 @@ void addVotes(const VoteTable& table, const VoteGrid& grid, std::size_t pairs,
 /// @param votes  One count for each number that an entry can be.
 void addBoundaryVotes(const VoteTable& table, std::size_t pairs, const std::uint32_t* keys,
                       std::uint32_t* votes);
+
 /// The largest of some numbers; 0 of none.
 std::uint32_t largestOf(const std::uint32_t* numbers, std::size_t count);
 
