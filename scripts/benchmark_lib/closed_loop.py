@@ -21,10 +21,10 @@ def files_digest():
     return digest(*sorted([*files, *PACKAGE.glob("src/sim_node/*.py")]))
 
 
-def run_loop(part, count, path):
+def run_loop(part, count, seed, path):
     """Launches the loop once and writes what its summary says."""
     command = ["roslaunch", "ppf_bin_picking", "demo.launch", f"part:={part}", f"count:={count}"]
-    command += [f"seed:={SEED}", f"preset:={LOOP_PRESET}"]
+    command += [f"seed:={seed}", f"preset:={LOOP_PRESET}"]
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
@@ -42,17 +42,24 @@ def run_loop(part, count, path):
     path.write_text(json.dumps(numbers))
 
 
-def run_loops(bench, parts, count=LOOP_COUNT):
-    """What became of the parts of each loop."""
+def loop_once(bench, part, count, seed):
+    """What became of the parts of one loop, and whether it was run now."""
+    path = bench.folder / "loops" / f"{part}-{count}-{seed}.json"
+    key = digest(
+        *(bench.part_digest(part), count, seed, LOOP_PRESET, files_digest()),
+        *map(program_digest, ("simulated_cell", "pose_detector_node")),
+    )
+    made = once(path, key, lambda: run_loop(part, count, seed, path))
+    return json.loads(path.read_text()), made
+
+
+def run_loops(bench, parts, count=LOOP_COUNT, seeds=(SEED,)):
+    """What became of the parts of each loop, by part one a seed."""
     loops = {}
-    progress = Progress("closed loops", len(parts))
+    progress = Progress("closed loops", len(parts) * len(seeds))
     for part in parts:
-        path = bench.folder / "loops" / f"{part}-{count}.json"
-        key = digest(
-            *(bench.part_digest(part), count, SEED, LOOP_PRESET, files_digest()),
-            *map(program_digest, ("simulated_cell", "pose_detector_node")),
-        )
-        made = once(path, key, lambda part=part, path=path: run_loop(part, count, path))
-        loops[part] = json.loads(path.read_text())
-        progress.step(f"{part}: {loops[part]['picked']} of {count} picked", made)
+        for seed in seeds:
+            loop, made = loop_once(bench, part, count, seed)
+            loops.setdefault(part, []).append(loop)
+            progress.step(f"{part}, seed {seed}: {loop['picked']} of {count} picked", made)
     return loops

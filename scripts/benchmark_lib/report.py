@@ -73,15 +73,24 @@ def variant_table(figures):
     return table(heading, rows)
 
 
+LOOP_KEYS = ("picked", "wrong", "blocked", "left", "cycles")
+
+
+def loop_sums(loops):
+    """Sums over some closed loops."""
+    return {key: sum(loop[key] for loop in loops) for key in LOOP_KEYS}
+
+
 def loop_table(loops):
-    """One line for each closed loop, and the sum."""
-    keys = ("picked", "wrong", "blocked", "left", "cycles")
-    rows = [
-        [part] + [loop[key] for key in keys] + [f"{loop['cycle_s']:.2f}", loop["why"]]
-        for part, loop in loops.items()
-    ]
-    total = ["ALL"] + [sum(loop[key] for loop in loops.values()) for key in keys]
-    return table(["part", *keys, "s a cycle", "why it ended"], rows + [total + ["", ""]])
+    """One line for each part's closed loops, and the sum."""
+    everything = [loop for some in loops.values() for loop in some]
+    rows = []
+    for part, some in {**loops, "ALL": everything}.items():
+        whys = dict.fromkeys(loop["why"] for loop in some)
+        cycle_s = statistics.fmean(loop["cycle_s"] for loop in some)
+        ended = ["", ""] if part == "ALL" else [f"{cycle_s:.2f}", "; ".join(whys)]
+        rows.append([part, *loop_sums(some).values(), *ended])
+    return table(["part", *LOOP_KEYS, "s a cycle", "why it ended"], rows)
 
 
 def p95(values):
