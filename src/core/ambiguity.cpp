@@ -92,8 +92,8 @@ void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConf
       if (owned[i] < kRivalShare * confirmed || c == selected[i].candidate ||
           samePose(pose, candidates[c], models, config))
         continue;
-      const double lead = evidenceBalance(pose.evidence, selected[i].confirmed) -
-                          evidenceBalance(rival, free + owned[i]);
+      const double lead =
+          seenBalance(pose.evidence, selected[i].confirmed) - seenBalance(rival, free + owned[i]);
       ambiguities[i].margin = std::min(ambiguities[i].margin, lead / confirmed);
     }
   }

@@ -109,6 +109,14 @@ TEST_F(AmbiguityTest, theMarginIsTheLeadOverTheBestRivalPerPixel)
   EXPECT_NEAR(assess()[0].margin, 0.3, 1e-9);
 }
 
+TEST_F(AmbiguityTest, whatSomethingHidesOfARivalIsNoLead)
+{
+  add(0, 0, 100);
+  add(0.03, 0, 95).evidence.occluded = 500;  // loses the pixels for it, but explains them as well
+  stand(0);
+  EXPECT_NEAR(assess()[0].margin, 0.05, 1e-9);
+}
+
 TEST_F(AmbiguityTest, aPoseIsNotItsOwnRival)
 {
   add(0, 0, 100);

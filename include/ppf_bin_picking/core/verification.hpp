@@ -83,6 +83,10 @@ double poseScore(const PoseEvidence& evidence, double confirmed);
 /// explaining more.
 double evidenceBalance(const PoseEvidence& evidence, double confirmed);
 
+/// evidenceBalance() without what something in front hides: of two poses that explain the same
+/// pixels, the one that is hidden for the most part is no worse for that.
+double seenBalance(const PoseEvidence& evidence, double confirmed);
+
 /// Share of what a free part would show that nothing in front hides, in [0, 1].
 double visibleFraction(const PoseEvidence& evidence);
 }  // namespace ppf_bin_picking
