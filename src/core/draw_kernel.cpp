@@ -20,10 +20,11 @@ inline void keepNotNegative(float value, float step, float& first, float& last)
     last = -1;
 }
 
-/// True where the surface may end between two pixels beside each other.
-inline bool mayEnd(float here_m, float next_m, float fall_m)
+/// 1 where the surface may end between two pixels beside each other, else 0.
+inline std::int32_t mayEnd(float here_m, float next_m, float fall_m)
 {
-  return (next_m == 0) | (next_m - here_m >= fall_m);
+  const bool ends = (next_m == 0) | (next_m - here_m >= fall_m);
+  return ends ? 1 : 0;
 }
 }  // namespace
 
@@ -86,10 +87,12 @@ void markFalls(const float* depth_m, int width, int height, float fall_m, std::u
     std::uint8_t* __restrict const marked = marks + static_cast<std::ptrdiff_t>(row) * width;
     const bool is_border = row == 0 || row == height - 1;
     for (int u = 1; u < width - 1 && !is_border; ++u)
-      marked[u] =
-          (here[u] > 0) &
-          (mayEnd(here[u], here[u - 1], fall_m) | mayEnd(here[u], here[u + 1], fall_m) |
-           mayEnd(here[u], here[u - width], fall_m) | mayEnd(here[u], here[u + width], fall_m));
+    {
+      const std::int32_t ends =
+          mayEnd(here[u], here[u - 1], fall_m) | mayEnd(here[u], here[u + 1], fall_m) |
+          mayEnd(here[u], here[u - width], fall_m) | mayEnd(here[u], here[u + width], fall_m);
+      marked[u] = static_cast<std::uint8_t>(here[u] > 0 ? ends : 0);
+    }
     for (int u = 0; u < width; u += is_border ? 1 : std::max(1, width - 1))
       marked[u] = here[u] > 0;
   }

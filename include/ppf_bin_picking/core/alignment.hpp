@@ -18,14 +18,14 @@ inline ImageArrays arraysOf(const RangeImage& image)
           camera.cx,    camera.cy,     image.depth.data(), image.normals.front().data()};
 }
 
-inline RigidMotion motionOf(const Eigen::Isometry3f& T)
+inline RigidMotion motionOf(const Eigen::Isometry3f& T_camera_samples)
 {
   RigidMotion motion;
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
-      motion.rotation[i][j] = T.linear()(i, j);
-    motion.shift_m[i] = T.translation()(i);
+      motion.rotation[i][j] = T_camera_samples.linear()(i, j);
+    motion.shift_m[i] = T_camera_samples.translation()(i);
   }
   return motion;
 }

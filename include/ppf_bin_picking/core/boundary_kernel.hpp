@@ -59,7 +59,8 @@ inline std::int32_t nearestAxis(float x, float y, float z)
   const std::int32_t along_y = y < 0 ? 3 : 2;
   const std::int32_t along_z = z < 0 ? 5 : 4;
   const std::int32_t of_two = ay > ax ? along_y : along_x;
-  return (az > ax) & (az > ay) ? along_z : of_two;
+  const bool is_along_z = (az > ax) & (az > ay);
+  return is_along_z ? along_z : of_two;
 }
 
 /// The key of a pair: place, normal and outward direction of the second point, seen from the first.
