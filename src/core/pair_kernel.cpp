@@ -1,28 +1,18 @@
 #include "ppf_bin_picking/core/pair_kernel.hpp"
 
 #include "instruction_sets.hpp"
+#include "point_columns.hpp"
 
 namespace ppf_bin_picking
 {
 namespace
 {
-/// Arrays that the compiler may take as not overlapping.
-struct Columns
-{
-  const float* __restrict x;
-  const float* __restrict y;
-  const float* __restrict z;
-  const float* __restrict nx;
-  const float* __restrict ny;
-  const float* __restrict nz;
-};
-
 PPF_BIN_PICKING_CLONES
-void keysOf(const Columns& columns, std::size_t count, const PairReference& given,
+void keysOf(const PointColumns& columns, std::size_t count, const PairReference& given,
             const KeySteps& given_steps, std::uint32_t* __restrict keys,
             std::uint32_t* __restrict alphas)
 {
-  const Columns at = columns;
+  const PointColumns at = columns;
   const PairReference r = given;
   const KeySteps steps = given_steps;
   for (std::size_t i = 0; i < count; ++i)
@@ -47,9 +37,6 @@ void keysOf(const Columns& columns, std::size_t count, const PairReference& give
 void pairKeys(const PointArrays& points, const PairReference& reference, const KeySteps& steps,
               std::uint32_t* keys, std::uint32_t* alphas)
 {
-  const Columns columns{points.x.data(),  points.y.data(),  points.z.data(),
-                        points.nx.data(), points.ny.data(), points.nz.data()};
-  keysOf(columns, points.size(), reference, steps, keys, alphas);
+  keysOf(PointColumns(points), points.size(), reference, steps, keys, alphas);
 }
-
 }  // namespace ppf_bin_picking

@@ -29,6 +29,10 @@ constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sigh
 constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction is not held
 constexpr float kConvergedRel = 1e-5F;   // step, relative to the diameter
 constexpr float kPriorShare = 1e-3F;
+// Settling: the outline is found in whole pixels, so that whole steps jump to and fro.
+constexpr int kSettlingSteps = 8;
+constexpr float kSettlingShare = 0.5F;  // of each step
+constexpr float kSettlingRel = 0.01F;   // of the diameter: half of what verification tells apart
 
 /// What the camera sees of a free part at a pose.
 struct VisiblePart
@@ -123,38 +127,90 @@ Eigen::Isometry3f moved(const Eigen::Isometry3f& T_camera_model, const Vector6f&
   result.makeAffine();
   return result;
 }
-}  // namespace
-
-Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
-                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+/// What steps have in common.
+struct Refinement
 {
-  const auto diameter = static_cast<float>(model.diameter());
-  const float lever_m = kLeverRel * diameter;
-  const float last_gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * diameter;
-  Eigen::Isometry3f pose = T_camera_model;
-  const ImageArrays arrays = arraysOf(image);
-  VisiblePart part;
-  for (int i = 0; i < config.icp_iterations; ++i)
+  Refinement(const RangeImage& given_image, const PpfModel& given_model,
+             const DetectorConfig& config)
+      : image(given_image),
+        model(given_model),
+        arrays(arraysOf(given_image)),
+        diameter_m(given_model.data().diameter_m),
+        last_gate_m(1.5F * static_cast<float>(config.depth_gate_rel) * diameter_m)
   {
-    const float progress =
-        static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
-    const int reach_px =
-        kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
-    if (i % kStepsPerView == 0) seeFrom(model, pose, image.camera, reach_px, part);
-    const float gate_m = std::max(
-        last_gate_m, kFirstGateRel * diameter *
-                         std::pow(last_gate_m / (kFirstGateRel * diameter), 1.5F * progress));
+  }
+
+  /// Looks at the part from where it is now.
+  void see(const Eigen::Isometry3f& pose, int reach_px)
+  {
+    seeFrom(model, pose, image.camera, reach_px, part);
+  }
+
+  /// Takes a share of one step. False, and no step, where too little is seen of the part.
+  bool step(float gate_m, int reach_px, float share, Eigen::Isometry3f& pose)
+  {
+    const float lever_m = kLeverRel * diameter_m;
     const Eigen::Vector3f center = pose * model.data().center;
     NormalEquations equations =
         alignmentOf(part.surface, arrays, pose,
                     {{center.x(), center.y(), center.z()}, lever_m, gate_m, kMinNormalCosine});
     addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
                equations);
-    if (!(equations.weight > 6)) break;
-    const Vector6f step = stepOf(equations);
-    pose = moved(pose, step, center, lever_m);
-    if (gate_m == last_gate_m && step.norm() < kConvergedRel * diameter) break;
+    if (!(equations.weight > 6)) return false;
+    const Vector6f whole = stepOf(equations);
+    pose = moved(pose, share * whole, center, lever_m);
+    last_step_m = whole.norm();
+    return true;
+  }
+
+  const RangeImage& image;
+  const PpfModel& model;
+  ImageArrays arrays;
+  VisiblePart part;
+  float diameter_m;
+  float last_gate_m;
+  float last_step_m = 0;  ///< With turns in levers.
+};
+}  // namespace
+
+Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
+                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+{
+  Refinement refinement(image, model, config);
+  const float first_gate_m = kFirstGateRel * refinement.diameter_m;
+  const float last_gate_m = refinement.last_gate_m;
+  Eigen::Isometry3f pose = T_camera_model;
+  for (int i = 0; i < config.icp_iterations; ++i)
+  {
+    const float progress =
+        static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
+    const int reach_px =
+        kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
+    if (i % kStepsPerView == 0) refinement.see(pose, reach_px);
+    const float gate_m =
+        std::max(last_gate_m, first_gate_m * std::pow(last_gate_m / first_gate_m, 1.5F * progress));
+    if (!refinement.step(gate_m, reach_px, 1, pose)) break;
+    if (gate_m == last_gate_m && refinement.last_step_m < kConvergedRel * refinement.diameter_m)
+      break;
   }
   return pose;
+}
+
+Eigen::Isometry3f settlePose(const RangeImage& image, const PpfModel& model,
+                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+{
+  Refinement refinement(image, model, config);
+  Eigen::Isometry3f pose = T_camera_model;
+  for (int i = 0; i < kSettlingSteps && config.icp_iterations > 0; ++i)
+  {
+    if (i % kStepsPerView == 0) refinement.see(pose, kLastOutlineReach_px);
+    if (!refinement.step(refinement.last_gate_m, kLastOutlineReach_px, kSettlingShare, pose)) break;
+  }
+  const Eigen::Vector3f& center = model.data().center;
+  const float shift_m = (pose * center - T_camera_model * center).norm();
+  const Eigen::AngleAxisf turn(
+      Eigen::Matrix3f(T_camera_model.linear().transpose() * pose.linear()));
+  const float farthest_m = shift_m + turn.angle() * refinement.diameter_m / 2;
+  return farthest_m < kSettlingRel * refinement.diameter_m ? pose : T_camera_model;
 }
 }  // namespace ppf_bin_picking

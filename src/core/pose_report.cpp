@@ -7,6 +7,7 @@
 #include "ppf_bin_picking/core/pca.hpp"
 #include "ppf_bin_picking/core/pose_covariance.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
+#include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/pose_verdict.hpp"
 #include "ppf_bin_picking/core/reliability.hpp"
 
@@ -44,15 +45,21 @@ MismatchingRegion regionOf(const DetectedPose& pose, const PoseVerdict& verdict,
   return region;
 }
 
+/// Writes where the part is: the canonical pose of its orbit.
+void setPose(const Eigen::Isometry3f& T_cloud_model, const PpfModel& model, DetectedPose& pose)
+{
+  pose.T_cloud_model = T_cloud_model.cast<double>();
+  pose.T_cloud_model.linear() =
+      Eigen::Quaterniond(pose.T_cloud_model.linear()).normalized().toRotationMatrix();
+  pose.T_cloud_model = canonicalPose(pose.T_cloud_model, model.symmetries());
+}
+
 DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, double confirmed,
                              double balance)
 {
   DetectedPose pose;
   pose.model = candidate.model;
-  pose.T_cloud_model = candidate.T_camera_model.cast<double>();
-  pose.T_cloud_model.linear() =
-      Eigen::Quaterniond(pose.T_cloud_model.linear()).normalized().toRotationMatrix();
-  pose.T_cloud_model = canonicalPose(pose.T_cloud_model, model.symmetries());
+  setPose(candidate.T_camera_model, model, pose);
   pose.score = poseScore(candidate.evidence, confirmed);
   pose.votes = candidate.votes;
   pose.visible_fraction = visibleFraction(candidate.evidence);
@@ -86,6 +93,21 @@ std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfM
   };
   parallelFor(config.threads, selected.size(), hold);
   return holds;
+}
+
+/// Lets the reliable poses settle. The others stay as their regions show them.
+void settle(const RangeImage& image, const std::vector<const PpfModel*>& models,
+            const DetectorConfig& config, std::vector<DetectedPose>& poses)
+{
+  parallelFor(config.threads, poses.size(),
+              [&](std::size_t i)
+              {
+                DetectedPose& pose = poses[i];
+                if (!pose.reliable) return;
+                const PpfModel& model = *models[pose.model];
+                setPose(settlePose(image, model, pose.T_cloud_model.cast<float>(), config), model,
+                        pose);
+              });
 }
 
 /// Writes each pose's covariance.
@@ -196,6 +218,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     if (!pose.reliable) result.regions.push_back(regionOf(pose, verdict, share, model));
     result.poses.push_back(pose);
   }
+  settle(image, models, config, result.poses);
   addCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
   sortResult(result);

@@ -177,9 +177,8 @@ TEST_P(BracketOnPlane, isFoundAndNotFlaggedWhateverTheClustering)
     expectRight(result.poses.front().T_cloud_model);
     best.push_back(result.poses.front().T_cloud_model);
   }
-  // Each may be refined from another hypothesis of the pose, so that they differ by the noise.
-  EXPECT_LT((best[0].translation() - best[1].translation()).norm(), 0.004 * model_.diameter());
-  EXPECT_LT(angleBetween(best[0], best[1]), 0.4 * M_PI / 180);
+  EXPECT_LT((best[0].translation() - best[1].translation()).norm(), 0.002 * model_.diameter());
+  EXPECT_LT(angleBetween(best[0], best[1]), 0.2 * M_PI / 180);
 }
 
 TEST_P(BracketOnPlane, isTheOnlyReliablePoseWithTheTableInTheRegion)

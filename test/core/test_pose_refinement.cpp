@@ -110,6 +110,38 @@ TEST_F(BracketRefinement, refinesAPartHalfHidden)
   EXPECT_LT(error.angle_rad, M_PI / 180);
 }
 
+TEST_F(BracketRefinement, settlesWhereAnyRefinedPoseNearbyDoes)
+{
+  std::mt19937 rng(22);
+  double spread_before_m = 0, spread_m = 0;
+  for (int i = 0; i < 5; ++i)
+  {
+    const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(i)}}, kNoise_m);
+    for (int k = 0; k < 6; ++k)
+    {
+      const Eigen::Vector3d axis = randomDirection(rng).cast<double>();
+      const Eigen::Vector3d shift = 0.0003 * randomDirection(rng).cast<double>();
+      const Eigen::Isometry3d start = disturbed(pose(i), model_, 0.003, axis, shift);
+      const Eigen::Isometry3d settled =
+          settlePose(image, model_, start.cast<float>(), config_).cast<double>();
+      spread_before_m += PoseError(model_, pose(i), start).center_m.norm();
+      spread_m += PoseError(model_, pose(i), settled).center_m.norm();
+    }
+  }
+  EXPECT_LT(spread_m, 0.7 * spread_before_m);
+}
+
+TEST_F(BracketRefinement, doesNotSettleFarFromWhereItWasVerified)
+{
+  const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(2)}}, kNoise_m);
+  const Eigen::Isometry3f off =
+      disturbed(pose(2), model_, 0.05, {1, 0, 0}, {0.002, 0, 0}).cast<float>();
+  EXPECT_NE(refinePose(image, model_, off, config_).matrix(), off.matrix());
+  EXPECT_EQ(settlePose(image, model_, off, config_).matrix(), off.matrix());
+  const RangeImage nothing = noisyImage({}, 0);
+  EXPECT_EQ(settlePose(nothing, model_, off, config_).matrix(), off.matrix());
+}
+
 TEST_F(BracketRefinement, takesAsManyStepsAsTheConfigurationSays)
 {
   const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(0)}}, kNoise_m);

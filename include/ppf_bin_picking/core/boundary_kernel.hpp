@@ -94,5 +94,4 @@ inline std::uint32_t boundaryKeyOf(const BoundarySteps& steps, const BoundaryRef
 /// @param keys  One a point.
 void boundaryKeys(const BoundaryArrays& boundary, const BoundaryReference& reference,
                   const BoundarySteps& steps, std::uint32_t* keys);
-
 }  // namespace ppf_bin_picking

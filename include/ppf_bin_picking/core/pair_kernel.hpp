@@ -134,5 +134,4 @@ inline float dot3(float ax, float ay, float az, float bx, float by, float bz)
 /// @param alphas  One a point, in [0, 65535].
 void pairKeys(const PointArrays& points, const PairReference& reference, const KeySteps& steps,
               std::uint32_t* keys, std::uint32_t* alphas);
-
 }  // namespace ppf_bin_picking

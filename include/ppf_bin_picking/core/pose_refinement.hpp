@@ -16,4 +16,11 @@ namespace ppf_bin_picking
 /// @return The refined pose; the start if nothing of the part is seen.
 Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
                              const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config);
+
+/// Lets a refined and verified pose come to rest, in half steps and with the last gates, so that it
+/// depends less on where the refinement began.
+/// @return The pose given where it would move by more than verification could overlook (0.01 of the
+///         diameter at the part's farthest point, about), or with no icp_iterations.
+Eigen::Isometry3f settlePose(const RangeImage& image, const PpfModel& model,
+                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config);
 }  // namespace ppf_bin_picking
