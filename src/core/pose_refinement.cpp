@@ -29,7 +29,7 @@ constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sigh
 constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction is not held
 constexpr float kConvergedRel = 1e-5F;   // step, relative to the diameter
 constexpr float kPriorShare = 1e-3F;
-// Settling: the outline is found in whole pixels, so that whole steps jump to and fro.
+// Settling: the outline is found in whole pixels, so that whole steps jump back and forth.
 constexpr int kSettlingSteps = 8;
 constexpr float kSettlingShare = 0.5F;  // of each step
 constexpr float kSettlingRel = 0.01F;   // of the diameter: half of what verification tells apart
