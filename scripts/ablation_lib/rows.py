@@ -22,6 +22,7 @@ ROWS = (
     Row("no-slide", {"max_slide_share": 1.0}),
     Row("slide-of-all", {"firm_hold": 100.0}),
     Row("no-outline-gate", {"max_outline_broken": 1.0}),
+    Row("no-pierced-gate", {"max_pierced": 1.0}),
     Row("no-margin", {"min_margin": -1.0}),
     Row("margin-0.1", {"min_margin": 0.1}),
     Row("no-reliability", {"min_reliability": 0}),

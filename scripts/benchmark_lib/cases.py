@@ -23,6 +23,7 @@ VARIANTS = {
         "poses_per_cluster": 1,
         "max_slide_share": 1.0,
         "max_outline_broken": 1.0,
+        "max_pierced": 1.0,
         "min_margin": -1.0,
         "min_reliability": 0,
     },

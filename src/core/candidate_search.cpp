@@ -18,6 +18,8 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
+constexpr float kReachedRel = 0.02F;     // a candidate nearer than this has come to a look-alike
+constexpr float kReached_rad = 0.05F;    // ... and turned by less
 constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
@@ -115,6 +117,19 @@ void dropHopeless(const RangeImage& image, const std::vector<const PpfModel*>& m
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (!hopeless[i]) candidates[kept++] = candidates[i];
   candidates.resize(kept);
+}
+
+/// Whether two poses are one within a distance and an angle, over the part's symmetries.
+bool near(const Candidate& a, const Candidate& b, const PpfModel& model, float distance_rel,
+          float angle_rad)
+{
+  const Eigen::Vector3f& center = model.data().center;
+  return a.model == b.model &&
+         (a.T_camera_model * center - b.T_camera_model * center).norm() <
+             distance_rel * static_cast<float>(model.diameter()) &&
+         model.symmetries().rotationDistance(Eigen::Quaternionf(a.T_camera_model.linear()),
+                                             Eigen::Quaternionf(b.T_camera_model.linear())) <
+             angle_rad;
 }
 
 /// Indices of the candidates by their distance from the one with the most votes.
@@ -229,5 +244,33 @@ void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*
     parallelFor(config.threads, count, verify);
     lap("verification");
   }
+}
+
+std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
+                                    const DetectorConfig& config,
+                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<SelectedPose>& selected)
+{
+  std::vector<Candidate> turned;
+  for (const SelectedPose& standing : selected)
+  {
+    const Candidate& pose = candidates[standing.candidate];
+    if (poseScore(pose.evidence, standing.confirmed) < config.min_score) continue;
+    for (const Eigen::Isometry3f& turn : models[pose.model]->lookAlikes())
+    {
+      Candidate candidate;
+      candidate.model = pose.model;
+      candidate.cluster = pose.cluster;
+      candidate.votes = pose.votes;
+      candidate.T_camera_model = pose.T_camera_model * turn;
+      const auto is_here = [&](const Candidate& other)
+      {
+        return other.verified &&
+               near(other, candidate, *models[pose.model], kReachedRel, kReached_rad);
+      };
+      if (std::none_of(candidates.begin(), candidates.end(), is_here)) turned.push_back(candidate);
+    }
+  }
+  return turned;
 }
 }  // namespace ppf_bin_picking

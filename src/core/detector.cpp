@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -165,6 +166,11 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   for (std::uint32_t i = 0; i < models.size(); ++i)
     searchCandidates(image, *models[i], i, config, deadline, lap, result, candidates);
   verifyCandidates(image, models, config, deadline, lap, candidates);
+  work.selected = selectCandidates(candidates, image.depth.size());
+  lap("selection");
+  std::vector<Candidate> turned = lookAlikesOf(models, config, candidates, work.selected);
+  verifyCandidates(image, models, config, deadline, lap, turned);
+  std::move(turned.begin(), turned.end(), std::back_inserter(candidates));
   const bool cut_short = deadline.passed();
   work.selected = selectCandidates(candidates, image.depth.size());
   reportPoses(models, config, candidates, work.selected, image, result);

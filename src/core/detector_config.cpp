@@ -61,6 +61,7 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("max_slide_share", max_slide_share, 0.0, 1.0);
   check.within("firm_hold", firm_hold, 0.0, kHuge);
   check.within("max_outline_broken", max_outline_broken, 0.0, 1.0);
+  check.within("max_pierced", max_pierced, 0.0, 1.0);
   check.within("min_margin", min_margin, -1.0, 1.0);
   check.within("min_reliability", min_reliability, 0.0, 1.0);
   check.within("min_visible_share", min_visible_share, 0.0, 1.0);

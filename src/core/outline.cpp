@@ -152,8 +152,10 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
     }
     if (z == 0) return {OutlineEnd::kMissing, last_px};
     if (behind_m > 0) return {OutlineEnd::kBehind, last_px};
-    return {z > last_z - gate_m ? OutlineEnd::kGoesOn : OutlineEnd::kHidden,
-            last_px};  // rises, or something in front
+    const bool rises = z > last_z - gate_m;  // else something is in front
+    last_z = z;
+    if (rises && t == last_px + 1 && t < reach_px) continue;  // one pixel may mix two surfaces
+    return {rises ? OutlineEnd::kGoesOn : OutlineEnd::kHidden, last_px};
   }
   if (on_surface) return {OutlineEnd::kGoesOn, last_px};
   return {!hidden && absent > reach_px ? OutlineEnd::kAbsent : OutlineEnd::kHidden, 0};

@@ -24,6 +24,8 @@ constexpr float kShadowWeight = 0.3F;   // ... beyond which nothing was measured
 constexpr float kOutlineGates =
     0.7F;  // depth gate across the outline, in last gates of the surface
 constexpr float kFirstGateRel = 0.10F;  // of the diameter
+constexpr float kNarrower = 0.7F;       // each gate that is tried, relative to the one before
+constexpr float kNearShare = 0.85F;     // of the weight within the widest gate
 constexpr float kMinNormalCosine = 0.7F;
 constexpr float kMinFacing = 0.15F;      // surfaces flatter to the line of sight are left out
 constexpr float kWeakDirection = 2e-3F;  // eigenvalue below which a direction is not held
@@ -100,6 +102,8 @@ void addOutline(const RangeImage& image, const VisiblePart& part,
     const Eigen::Vector3f p = T_camera_model * part.outline_points[i];
     const OutlineMatch match = matchOutline(image, part.outline[i], p, gate_m, reach_px);
     if (match.end != OutlineEnd::kBehind && match.end != OutlineEnd::kMissing) continue;
+    // What is missing within the outline may be lost of the part: flanks and shiny edges are.
+    if (match.end == OutlineEnd::kMissing && match.offset_px < 0) continue;
     const float share = static_cast<float>(match.offset_px) / static_cast<float>(reach_px + 1);
     const float tukey = (1 - share * share) * (1 - share * share);
     const float weight = match.end == OutlineEnd::kBehind ? kOutlineWeight : kShadowWeight;
@@ -146,6 +150,29 @@ struct Refinement
     seeFrom(model, pose, image.camera, reach_px, part);
   }
 
+  /// The weight of the surface's measurements within a gate.
+  float weightWithin(float gate_m, const Eigen::Isometry3f& pose) const
+  {
+    const Eigen::Vector3f center = pose * model.data().center;
+    const AlignmentTerms terms{
+        {center.x(), center.y(), center.z()}, kLeverRel * diameter_m, gate_m, kMinNormalCosine};
+    return alignmentOf(part.surface, arrays, pose, terms).weight;
+  }
+
+  /// The gate to begin with: narrow where most of what a wide one would take in is near already,
+  /// as a wide one lets neighbours turn a pose that was right.
+  float firstGate(const Eigen::Isometry3f& pose) const
+  {
+    float gate_m = kFirstGateRel * diameter_m;
+    const float enough = kNearShare * weightWithin(gate_m, pose);
+    for (float narrower_m = gate_m; narrower_m > last_gate_m; gate_m = narrower_m)
+    {
+      narrower_m = std::max(last_gate_m, kNarrower * gate_m);
+      if (weightWithin(narrower_m, pose) < enough) break;
+    }
+    return gate_m;
+  }
+
   /// Takes a share of one step. False, and no step, where too little is seen of the part.
   bool step(float gate_m, int reach_px, float share, Eigen::Isometry3f& pose)
   {
@@ -177,8 +204,8 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
                              const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
   Refinement refinement(image, model, config);
-  const float first_gate_m = kFirstGateRel * refinement.diameter_m;
   const float last_gate_m = refinement.last_gate_m;
+  float first_gate_m = 0;
   Eigen::Isometry3f pose = T_camera_model;
   for (int i = 0; i < config.icp_iterations; ++i)
   {
@@ -187,9 +214,11 @@ Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
     const int reach_px =
         kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
     if (i % kStepsPerView == 0) refinement.see(pose, reach_px);
+    if (i == 0) first_gate_m = refinement.firstGate(pose);
+    const float share = i + kStepsPerView < config.icp_iterations ? 1.0F : 0.5F;
     const float gate_m =
         std::max(last_gate_m, first_gate_m * std::pow(last_gate_m / first_gate_m, 1.5F * progress));
-    if (!refinement.step(gate_m, reach_px, 1, pose)) break;
+    if (!refinement.step(gate_m, reach_px, share, pose)) break;
     if (gate_m == last_gate_m && refinement.last_step_m < kConvergedRel * refinement.diameter_m)
       break;
   }

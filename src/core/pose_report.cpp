@@ -70,9 +70,10 @@ DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, 
   const PoseEvidence& evidence = candidate.evidence;
   const double expected = std::max(1.0, evidence.expected());
   pose.looked_through = evidence.looked_through / expected;
-  pose.outline_broken = (evidence.outline_broken + evidence.pierced) /
-                        std::max(1.0, evidence.outline_held + evidence.outline_broken +
-                                          evidence.stepped + evidence.pierced);
+  const double edges_px = std::max(
+      1.0, evidence.outline_held + evidence.outline_broken + evidence.stepped + evidence.pierced);
+  pose.outline_broken = (evidence.outline_broken + evidence.pierced) / edges_px;
+  pose.pierced = evidence.pierced / edges_px;
   pose.claimed = (evidence.confirmed_weight - confirmed) / expected;
   pose.cluster = candidate.cluster;
   return pose;

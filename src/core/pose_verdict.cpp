@@ -64,6 +64,11 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
             "the measured surface goes on at " + percent(pose.outline_broken) +
                 " of its edges (max_outline_broken " + percent(config.max_outline_broken) +
                 "), so that nothing ends where the part ends"};
+  if (pose.pierced > config.max_pierced)
+    return {UnreliableReason::kLowScore, "the measured surface passes through " +
+                                             percent(pose.pierced) + " of its edges (max_pierced " +
+                                             percent(config.max_pierced) +
+                                             "), so that it lies within something larger"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
             rivalOf(pose) + " (min_margin " + percent(config.min_margin) + ")"};

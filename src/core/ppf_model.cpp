@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/ppf_model.hpp"
 
+#include "ppf_bin_picking/core/look_alikes.hpp"
 #include "ppf_bin_picking/core/orbits.hpp"
 #include "ppf_bin_picking/core/ppf.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
@@ -160,7 +161,8 @@ PpfModel PpfModel::train(const TriangleMesh& mesh, const SymmetryGroup& symmetri
 PpfModel::PpfModel(PpfModelData data)
     : data_(checked(std::move(data))),
       symmetries_(data_.symmetries_discrete, data_.symmetries_continuous),
-      renderable_(data_.mesh)
+      renderable_(data_.mesh),
+      look_alikes_(lookAlikeTurns(data_, symmetries_))
 {
   for (const std::uint32_t entry : data_.entries)
     references_ = std::max<std::size_t>(references_, (entry >> 16) + 1);

@@ -20,8 +20,9 @@ constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surfac
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
 constexpr float kPierceGates = 0.5F;    // ... and smaller rises towards the camera are no step
 constexpr double kMissingWeight = 0.4;  // of a contradiction
-constexpr double kHiddenWeight = 0.3;   // ... in the balance of evidence
-constexpr double kEdgeWeight = 4.0;     // of a broken outline pixel, in pixels of surface
+constexpr double kMissingBalance = 0.56;  // ... in the balance of evidence
+constexpr double kHiddenWeight = 0.3;     // likewise
+constexpr double kEdgeWeight = 4.0;       // of a broken outline pixel, in pixels of surface
 
 /// One pixel of the rendered part.
 struct ModelPixel
@@ -242,14 +243,15 @@ double evidenceBalance(const PoseEvidence& evidence, double confirmed)
 {
   const double claimed_by_others = evidence.confirmed_weight - confirmed;
   return confirmed - 3.0 * evidence.looked_through - 3.6 * evidence.wrong_normal -
-         0.56 * evidence.missing - kHiddenWeight * evidence.occluded - 1.0 * evidence.outside -
-         claimed_by_others - 10.0 * (evidence.outline_broken + evidence.pierced) +
-         3.0 * evidence.outline_held;
+         kMissingBalance * evidence.missing - kHiddenWeight * evidence.occluded -
+         1.0 * evidence.outside - claimed_by_others -
+         10.0 * (evidence.outline_broken + evidence.pierced) + 3.0 * evidence.outline_held;
 }
 
 double seenBalance(const PoseEvidence& evidence, double confirmed)
 {
-  return evidenceBalance(evidence, confirmed) + kHiddenWeight * evidence.occluded;
+  return evidenceBalance(evidence, confirmed) + kHiddenWeight * evidence.occluded +
+         kMissingBalance * evidence.missing;
 }
 
 double visibleFraction(const PoseEvidence& evidence)

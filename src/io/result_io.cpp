@@ -63,6 +63,7 @@ json toJson(const DetectedPose& pose)
           {"evidence_balance", pose.evidence_balance},
           {"looked_through", pose.looked_through},
           {"outline_broken", pose.outline_broken},
+          {"pierced", pose.pierced},
           {"claimed", pose.claimed},
           {"reliability", pose.reliability},
           {"covariance", numbersOf(pose.covariance)}};
@@ -109,6 +110,7 @@ DetectedPose poseFrom(const json& item)
   pose.evidence_balance = item.value("evidence_balance", 0.0);
   pose.looked_through = item.value("looked_through", 0.0);
   pose.outline_broken = item.value("outline_broken", 0.0);
+  pose.pierced = item.value("pierced", 0.0);
   pose.claimed = item.value("claimed", 0.0);
   pose.reliability = item.value("reliability", 0.0);
   pose.covariance = covarianceOf(item);

@@ -109,12 +109,17 @@ TEST_F(AmbiguityTest, theMarginIsTheLeadOverTheBestRivalPerPixel)
   EXPECT_NEAR(assess()[0].margin, 0.3, 1e-9);
 }
 
-TEST_F(AmbiguityTest, whatSomethingHidesOfARivalIsNoLead)
+TEST_F(AmbiguityTest, whatIsHiddenOrMissingOfARivalIsNoLead)
 {
   add(0, 0, 100);
-  add(0.03, 0, 95).evidence.occluded = 500;  // loses the pixels for it, but explains them as well
+  add(0.03, 0, 95);  // explains the pixels as well, whatever else it expects
   stand(0);
+  candidates_[1].evidence.occluded = 500;
   EXPECT_NEAR(assess()[0].margin, 0.05, 1e-9);
+  candidates_[1].evidence.missing = 300;
+  EXPECT_NEAR(assess()[0].margin, 0.05, 1e-9);
+  candidates_[1].evidence.looked_through = 10;
+  EXPECT_GT(assess()[0].margin, 0.3);
 }
 
 TEST_F(AmbiguityTest, aPoseIsNotItsOwnRival)

@@ -185,6 +185,18 @@ TEST_P(MatchOutline, goesOnWhereTheSurfaceDoesStraightOrRising)
          OutlineEnd::kGoesOn, 3);
 }
 
+TEST_P(MatchOutline, onePixelBesideTheEdgeIsNoSurface)
+{
+  for (int t = 1; t <= kOutlineReach_px; ++t)  // the part's surface falls away there
+    outline_.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)] = 1.2F * kGate_m;
+  const auto one_goes_on = [](float beyond_m)
+  { return [=](int t) { return t <= 1 ? 0.5F : beyond_m; }; };
+  expect(one_goes_on(0), OutlineEnd::kMissing, 0);
+  expect(one_goes_on(0.6F), OutlineEnd::kBehind, 0);
+  expect(one_goes_on(0.4F), OutlineEnd::kHidden, 0);
+  expect(one_goes_on(0.5F), OutlineEnd::kGoesOn, 0);
+}
+
 TEST_P(MatchOutline, isHiddenWhereSomethingElseLiesInFront)
 {
   expect([](int t) { return t <= 2 ? 0.5F : 0.4F; }, OutlineEnd::kHidden, 2);

@@ -110,6 +110,42 @@ TEST_F(BracketRefinement, refinesAPartHalfHidden)
   EXPECT_LT(error.angle_rad, M_PI / 180);
 }
 
+TEST_F(BracketRefinement, isNotDrawnAwayFromAnEdgeThatIsLost)
+{
+  double error_m = 0;
+  for (int i = 0; i < 5; ++i)
+  {
+    RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(i)}}, kNoise_m);
+    const std::vector<float> part = renderDepth({{bracketMesh(), pose(i)}}, image.camera);
+    for (int v = 0; v < image.camera.height; ++v)
+    {
+      int lost = 0;  // of each row the part's first pixels, and what is beside them
+      for (int u = 0; u < image.camera.width && lost < 3; ++u)
+      {
+        lost += part[image.index(u, v)] > 0 ? 1 : 0;
+        image.depth[image.index(u, v)] = 0;
+      }
+    }
+    const PoseError error(model_, pose(i), refined(image, model_, pose(i), config_));
+    error_m += error.center_m.norm() / 5;
+  }
+  EXPECT_LT(error_m, 0.1 * 0.5 / smallCamera().fx) << "a tenth of a pixel";
+}
+
+TEST_F(BracketRefinement, isNotTurnedByANeighbourWhereItFits)
+{
+  const TriangleMesh board = boxMesh({0.05F, 0.06F, 0.002F});  // hides half, 2 to 11 mm above it
+  for (int i = 0; i < 5; ++i)
+  {
+    const Eigen::Isometry3d T_camera_board = pose(i) * poseOf(-0.15, {0, 1, 0}, {0.02, 0, 0.015});
+    const RangeImage image =
+        noisyImage({wall(0.6), {bracketMesh(), pose(i)}, {board, T_camera_board}}, kNoise_m);
+    const PoseError error(model_, pose(i), refined(image, model_, pose(i), config_));
+    EXPECT_LT(error.center_m.norm(), kNoise_m);
+    EXPECT_LT(error.angle_rad, 0.5 * M_PI / 180);
+  }
+}
+
 TEST_F(BracketRefinement, settlesWhereAnyRefinedPoseNearbyDoes)
 {
   std::mt19937 rng(22);

@@ -54,6 +54,7 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
        "max_slide_share"},
       {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kLowScore,
        "max_outline_broken"},
+      {[](DetectedPose& pose) { pose.pierced = 0.3; }, UnreliableReason::kLowScore, "max_pierced"},
       {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
       {[](DetectedPose& pose) { pose.margin = -0.1; }, UnreliableReason::kRunnerUp,
        "better, with 10 % more evidence"},
@@ -93,12 +94,19 @@ TEST_F(VerdictTest, toleratesAsManyBrokenEdgesAsItIsTold)
   EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
 }
 
+TEST_F(VerdictTest, toleratesWhatPassesThroughAsFarAsItIsTold)
+{
+  config_.max_pierced = 0.4;
+  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.pierced = 0.3; });
+  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+}
+
 TEST_F(VerdictTest, namesNoGateThatIsOff)
 {
   config_.mismatch_test = false;
   const auto doubtful = [](DetectedPose& pose)
   {
-    pose.slide_share = pose.outline_broken = 1;
+    pose.slide_share = pose.outline_broken = pose.pierced = 1;
     pose.margin = pose.reliability = 0;
   };
   EXPECT_EQ(verdict(doubtful).reason, UnreliableReason::kNone);

@@ -7,6 +7,7 @@ set(core_tests
     test_detector
     test_detector_config
     test_kernels
+    test_look_alikes
     test_mismatch
     test_model_renderer
     test_neighbor_search

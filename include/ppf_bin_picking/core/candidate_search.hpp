@@ -7,6 +7,7 @@
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"
+#include "ppf_bin_picking/core/selection.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 #include "ppf_bin_picking/core/verification.hpp"
 
@@ -52,4 +53,12 @@ void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*
                       const DetectorConfig& config, const Deadline& deadline,
                       const std::function<void(const char*)>& lap,
                       std::vector<Candidate>& candidates);
+
+/// What the standing poses may be confused with: each one that scores enough, turned as
+/// PpfModel::lookAlikes() says, unless a candidate has come there. Not yet verified; the votes and
+/// the cluster are the standing pose's.
+std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
+                                    const DetectorConfig& config,
+                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<SelectedPose>& selected);
 }  // namespace ppf_bin_picking

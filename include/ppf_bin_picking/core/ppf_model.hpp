@@ -52,6 +52,8 @@ public:
   const ModelParameters& parameters() const { return data_.parameters; }
   const SymmetryGroup& symmetries() const { return symmetries_; }
   const RenderableMesh& renderable() const { return renderable_; }
+  /// See lookAlikeTurns().
+  const std::vector<Eigen::Isometry3f>& lookAlikes() const { return look_alikes_; }
   double diameter() const { return data_.diameter_m; }  ///< [m]
 
   /// The table's reference points are the first so many points: of points that the symmetries lay
@@ -62,6 +64,7 @@ private:
   PpfModelData data_;
   SymmetryGroup symmetries_;
   RenderableMesh renderable_;
+  std::vector<Eigen::Isometry3f> look_alikes_;
   std::size_t references_ = 0;
 };
 }  // namespace ppf_bin_picking

@@ -83,8 +83,8 @@ double poseScore(const PoseEvidence& evidence, double confirmed);
 /// explaining more.
 double evidenceBalance(const PoseEvidence& evidence, double confirmed);
 
-/// evidenceBalance() without what something in front hides: of two poses that explain the same
-/// pixels, the one that is hidden for the most part is no worse for that.
+/// evidenceBalance() without what something in front hides and without what was not measured: of
+/// two poses that explain the same pixels, the one of which less is seen is no worse for that.
 double seenBalance(const PoseEvidence& evidence, double confirmed);
 
 /// Share of what a free part would show that nothing in front hides, in [0, 1].
