@@ -41,18 +41,10 @@ TERMS = (
     ),
     Term(
         "margin",
-        lambda margin: clamp(margin, -0.2, 0.1),
-        "lead over the best other pose there, within -0.2 and 0.1",
+        lambda margin: clamp(margin, -0.2, 0.5),
+        "lead over the best other pose there, within -0.2 and 0.5",
         1,
-        "std::clamp(pose.margin, -0.2, 0.1)",
-        "kRunnerUp",
-    ),
-    Term(
-        "margin",
-        lambda margin: clamp(margin, 0.1, 0.5),
-        "the same lead, within 0.1 and 0.5",
-        1,
-        "std::clamp(pose.margin, 0.1, 0.5)",
+        "std::clamp(pose.margin, -0.2, 0.5)",
         "kRunnerUp",
     ),
     Term(
