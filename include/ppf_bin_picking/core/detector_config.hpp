@@ -63,9 +63,9 @@ struct DetectorConfig
   double max_slide_share = 0.85;
   double firm_hold = 0.07;          ///< From this hold on a pose is not held loosely. >= 0.
   double max_outline_broken = 0.7;  ///< Largest broken share of the edges in sight. [0, 1].
-  double max_pierced = 0.25;      ///< Largest share of these that the cloud passes through. [0, 1].
-  double min_margin = 0.05;       ///< Least lead over the best other pose there. [-1, 1].
-  double min_reliability = 0.85;  ///< Least probability that a pose is right. [0, 1].
+  double max_pierced = 0.25;     ///< Largest share of these that the cloud passes through. [0, 1].
+  double min_margin = 0.05;      ///< Least lead over the best other pose there. [-1, 1].
+  double min_reliability = 0.9;  ///< Least probability that a pose is right. [0, 1].
 
   // Refinement, verification and selection
   int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
