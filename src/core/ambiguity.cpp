@@ -58,19 +58,6 @@ void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& ca
   }
 }
 
-bool samePose(const Candidate& a, const Candidate& b, const std::vector<const PpfModel*>& models,
-              const DetectorConfig& config)
-{
-  if (a.model != b.model) return false;
-  const PpfModel& model = *models[a.model];
-  const Eigen::Vector3f& center = model.data().center;
-  return (a.T_camera_model * center - b.T_camera_model * center).norm() <
-             config.group_distance_rel * model.diameter() &&
-         model.symmetries().rotationDistance(Eigen::Quaternionf(a.T_camera_model.linear()),
-                                             Eigen::Quaternionf(b.T_camera_model.linear())) <
-             config.group_angle_rad;
-}
-
 void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                   const std::vector<Candidate>& candidates,
                   const std::vector<SelectedPose>& selected, const Owners& owners,
@@ -90,7 +77,8 @@ void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConf
       const Candidate& pose = candidates[selected[i].candidate];
       const double confirmed = std::max(1.0, selected[i].confirmed);
       if (owned[i] < kRivalShare * confirmed || c == selected[i].candidate ||
-          samePose(pose, candidates[c], models, config))
+          areNear(pose, candidates[c], *models[pose.model], config.group_distance_rel,
+                  config.group_angle_rad))
         continue;
       const double lead =
           seenBalance(pose.evidence, selected[i].confirmed) - seenBalance(rival, free + owned[i]);

@@ -18,8 +18,8 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
-constexpr float kReachedRel = 0.02F;     // a candidate nearer than this has come to a look-alike
-constexpr float kReached_rad = 0.05F;    // ... and turned by less
+constexpr double kReachedRel = 0.02;     // a candidate nearer than this has come to a look-alike
+constexpr double kReached_rad = 0.05;    // ... and turned by less
 constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
@@ -119,19 +119,6 @@ void dropHopeless(const RangeImage& image, const std::vector<const PpfModel*>& m
   candidates.resize(kept);
 }
 
-/// Whether two poses are one within a distance and an angle, over the part's symmetries.
-bool near(const Candidate& a, const Candidate& b, const PpfModel& model, float distance_rel,
-          float angle_rad)
-{
-  const Eigen::Vector3f& center = model.data().center;
-  return a.model == b.model &&
-         (a.T_camera_model * center - b.T_camera_model * center).norm() <
-             distance_rel * static_cast<float>(model.diameter()) &&
-         model.symmetries().rotationDistance(Eigen::Quaternionf(a.T_camera_model.linear()),
-                                             Eigen::Quaternionf(b.T_camera_model.linear())) <
-             angle_rad;
-}
-
 /// Indices of the candidates by their distance from the one with the most votes.
 std::vector<std::size_t> fromTheBestOutwards(const std::vector<Candidate>& candidates,
                                              const std::vector<const PpfModel*>& models)
@@ -152,6 +139,18 @@ std::vector<std::size_t> fromTheBestOutwards(const std::vector<Candidate>& candi
   return order;
 }
 }  // namespace
+
+bool areNear(const Candidate& a, const Candidate& b, const PpfModel& model, double distance_rel,
+             double angle_rad)
+{
+  const Eigen::Vector3f& center = model.data().center;
+  return a.model == b.model &&
+         (a.T_camera_model * center - b.T_camera_model * center).norm() <
+             distance_rel * model.diameter() &&
+         model.symmetries().rotationDistance(Eigen::Quaternionf(a.T_camera_model.linear()),
+                                             Eigen::Quaternionf(b.T_camera_model.linear())) <
+             angle_rad;
+}
 
 OrientedPoints sampleScene(const RangeImage& image, float step_m)
 {
@@ -266,7 +265,7 @@ std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
       const auto is_here = [&](const Candidate& other)
       {
         return other.verified &&
-               near(other, candidate, *models[pose.model], kReachedRel, kReached_rad);
+               areNear(other, candidate, *models[pose.model], kReachedRel, kReached_rad);
       };
       if (std::none_of(candidates.begin(), candidates.end(), is_here)) turned.push_back(candidate);
     }

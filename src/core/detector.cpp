@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -137,6 +138,19 @@ struct Work
   std::vector<SelectedPose> selected;
 };
 
+/// Looks at what the standing poses may be confused with as well, and chooses anew.
+void addLookAlikes(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                   const Deadline& deadline, const std::function<void(const char*)>& lap,
+                   Work& work)
+{
+  const RangeImage& image = work.prepared.image;
+  std::vector<Candidate> turned = lookAlikesOf(models, config, work.candidates, work.selected);
+  if (turned.empty()) return;
+  verifyCandidates(image, models, config, deadline, lap, turned);
+  std::move(turned.begin(), turned.end(), std::back_inserter(work.candidates));
+  work.selected = selectCandidates(work.candidates, image.depth.size());
+}
+
 /// From a cloud that can be worked on to the poses.
 void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
             const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,
@@ -168,11 +182,8 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   verifyCandidates(image, models, config, deadline, lap, candidates);
   work.selected = selectCandidates(candidates, image.depth.size());
   lap("selection");
-  std::vector<Candidate> turned = lookAlikesOf(models, config, candidates, work.selected);
-  verifyCandidates(image, models, config, deadline, lap, turned);
-  std::move(turned.begin(), turned.end(), std::back_inserter(candidates));
+  addLookAlikes(models, config, deadline, lap, work);
   const bool cut_short = deadline.passed();
-  work.selected = selectCandidates(candidates, image.depth.size());
   reportPoses(models, config, candidates, work.selected, image, result);
   lap("selection");
   setStatus(result, cut_short, config.time_limit_s);

@@ -30,6 +30,12 @@ struct Candidate
   PoseEvidence evidence;
 };
 
+/// Whether two candidates are of one model and their poses nearer than a distance of the centres,
+/// in diameters, and an angle [rad], over the part's symmetries.
+/// @param model  Of the first.
+bool areNear(const Candidate& a, const Candidate& b, const PpfModel& model, double distance_rel,
+             double angle_rad);
+
 /// The measured points of the region with normals, thinned out to a model's sampling step.
 OrientedPoints sampleScene(const RangeImage& image, float step_m);
 

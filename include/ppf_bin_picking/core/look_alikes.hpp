@@ -12,7 +12,7 @@ namespace ppf_bin_picking
 struct PpfModelData;
 
 /// Turns of the part that leave at least half of its surface in place and are none of its
-/// symmetries: end for end, upside down, or by one hole of a flange too many. Where the camera
+/// symmetries: end for end, upside down, or a round part a little on. Where the camera
 /// sees little but that half, a pose and the turned one explain the cloud alike. Tried are turns
 /// by multiples of 30 and 45 degrees about the principal axes of the part's samples through the
 /// middle of their box; the refinement does the rest.
