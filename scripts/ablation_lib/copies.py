@@ -75,11 +75,7 @@ def copy_bins(data, bench, seeds):
             scene = CopiedScene(part, f"{source.name}-noise-{seed}")
             folder = bench.scene_path(scene)
             copy_files(source, folder, ("depth.png", "camera.yaml", "gt.json"))
-            add_noise(
-                folder / "depth.png",
-                unit_m,
-                zlib.crc32(f"{part}/{scene.name}".encode()),
-            )
+            add_noise(folder / "depth.png", unit_m, zlib.crc32(f"{part}/{scene.name}".encode()))
             (folder / "roi.yaml").write_text(region)
             scenes[seed].append(scene)
     return scenes

@@ -42,17 +42,7 @@ def time_of(figures, name, first):
 
 def step_table(rows, figures):
     """One line a row."""
-    heading = [
-        "setting",
-        "AP",
-        "P",
-        "R",
-        "own AP",
-        "own P",
-        "own R",
-        "pins",
-        "suspicious",
-    ]
+    heading = ["setting", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
     heading += ["other bins", "time"]
     lines = []
     for row in rows:

@@ -12,14 +12,8 @@ SLANT_RAD = (
     0.5,
     1.0,
 )  # of the surfaces that are just lost, from facing the camera; one value a scene
-REACH_PX = (
-    7,
-    17,
-)  # width of the window in which the surface behind is looked for; both included
-FILLED_SHARE = (
-    0.4,
-    0.9,
-)  # share of the image in which the surface behind shows through
+REACH_PX = (7, 17)  # width of the window in which the surface behind is looked for; both included
+FILLED_SHARE = (0.4, 0.9)  # share of the image in which the surface behind shows through
 BLOCK_PX = 16  # size of the regions in which it does
 EMPTY_SHARE = 0.3  # of the pixels that were empty before, those that surely stay so
 SMOOTHING_PX = 1.5  # of the depth, before its slope is taken

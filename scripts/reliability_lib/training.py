@@ -21,12 +21,7 @@ FOREIGN_SHIFTS = (1, 3, 5, 8)
 FOREIGN_WEIGHT = 0.2  # a bin rarely holds other parts
 VARIANT = "default"
 # Name of each set of poses with its weight in the fit.
-SETS = {
-    "own": 1.0,
-    "shiny": 1.0,
-    "foreign": FOREIGN_WEIGHT,
-    "foreign, shiny": FOREIGN_WEIGHT,
-}
+SETS = {"own": 1.0, "shiny": 1.0, "foreign": FOREIGN_WEIGHT, "foreign, shiny": FOREIGN_WEIGHT}
 
 
 @dataclass(frozen=True)
@@ -71,11 +66,7 @@ class Training(Bench):
         progress = Progress("shiny scenes", len(scenes))
         for scene in scenes:
             source, path = self.scene_path(scene.source), self.scene_path(scene)
-            made = once(
-                path,
-                self.scene_key(scene),
-                lambda: shiny.write_shiny_scene(source, path),
-            )
+            made = once(path, self.scene_key(scene), lambda: shiny.write_shiny_scene(source, path))
             progress.step(f"{scene.part} {scene.name}", made)
 
     def find_foreign(self, pairs):

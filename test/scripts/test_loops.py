@@ -30,14 +30,7 @@ class UpperBound(unittest.TestCase):
 
 class LoopSums(unittest.TestCase):
     def test_adds_loop_by_loop(self):
-        loop = {
-            "picked": 5,
-            "wrong": 1,
-            "blocked": 2,
-            "left": 3,
-            "cycles": 8,
-            "why": "empty",
-        }
+        loop = {"picked": 5, "wrong": 1, "blocked": 2, "left": 3, "cycles": 8, "why": "empty"}
         self.assertEqual(
             loop_sums([loop, loop]),
             {"picked": 10, "wrong": 2, "blocked": 4, "left": 6, "cycles": 16},

@@ -41,9 +41,7 @@ class FitTest(unittest.TestCase):
         penalty = regression.PENALTY * model.weights * deviation
         np.testing.assert_allclose(gradient, penalty, atol=1e-2)
 
-    def test_a_weight_of_the_wrong_sign_is_none_and_the_others_are_those_without_it(
-        self,
-    ):
+    def test_a_weight_of_the_wrong_sign_is_none_and_the_others_are_those_without_it(self):
         drawn, labels = known_problem(rows=2000)
         weights = np.ones(len(labels))
         model = regression.fit(drawn, labels, weights, (1, 1))
@@ -250,13 +248,7 @@ class TermsTest(unittest.TestCase):
 
     def test_extremes_are_clamped(self):
         low = {**self.POSE, "score": 0, "margin": -1, "hold": 0, "confirmed_px": 0}
-        high = {
-            **self.POSE,
-            "score": 1,
-            "margin": 1,
-            "spread": 9,
-            "visible_fraction": 1.5,
-        }
+        high = {**self.POSE, "score": 1, "margin": 1, "spread": 9, "visible_fraction": 1.5}
         low_row, high_row = terms.terms_of([low, high], "here")
         np.testing.assert_allclose(low_row[[0, 1, 2, 8]], [-np.log(4), -0.2, -3, np.log10(30)])
         np.testing.assert_allclose(high_row[[0, 1, 4, 9]], [np.log(49), 0.5, 2, 1])
