@@ -114,6 +114,12 @@ ROWS = (
         {"max_candidates": 100},
         "not taken: data/bins loses AP .025",
     ),
+    Row(
+        "no-look",
+        {"min_look_balance": -2},
+        "drops next to nothing that is right; kept for the time",
+    ),
+    Row("look-0", {"min_look_balance": 0}),
     Row("candidates-600", {"max_candidates": 600}),
     Row("one-peak", {"peaks_per_reference": 1}),
     Row("references-0.05", {"reference_share": 0.05}),

@@ -3,14 +3,11 @@
 #include "ppf_bin_picking/core/boundary_matcher.hpp"
 #include "ppf_bin_picking/core/neighbor_search.hpp"
 #include "ppf_bin_picking/core/pose_clustering.hpp"
-#include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/ppf_matcher.hpp"
-#include "ppf_bin_picking/core/sparse_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 namespace ppf_bin_picking
 {
@@ -18,9 +15,6 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
-constexpr double kReachedRel = 0.02;     // a candidate nearer than this has come to a look-alike
-constexpr double kReached_rad = 0.05;    // ... and turned by less
-constexpr std::size_t kBatch = 32;       // candidates between two looks at the deadline
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.
@@ -94,49 +88,6 @@ void append(std::vector<HypothesisCluster>& clusters, std::vector<PoseHypothesis
   }
   result.clusters.insert(result.clusters.end(), clusters.begin(), clusters.end());
   result.distribution.insert(result.distribution.end(), distribution.begin(), distribution.end());
-}
-
-/// Drops candidates that the cloud contradicts even where a quick fit moves them. They keep their
-/// own poses: without the outline the fit slides, which the dear one would have to undo. Drops
-/// nothing once the deadline has passed.
-void dropHopeless(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                  const DetectorConfig& config, const Deadline& deadline,
-                  std::vector<Candidate>& candidates)
-{
-  std::vector<std::uint8_t> hopeless(candidates.size(), 0);
-  const auto judge = [&](std::size_t i)
-  {
-    if (deadline.passed()) return;
-    const Candidate& start = candidates[i];
-    const SparseFit fit = fitSparsely(image, *models[start.model], start.T_camera_model, config);
-    hopeless[i] = fit.balance < config.min_sparse_balance;
-  };
-  parallelFor(config.threads, candidates.size(), judge);
-  if (deadline.passed()) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (!hopeless[i]) candidates[kept++] = candidates[i];
-  candidates.resize(kept);
-}
-
-/// Indices of the candidates by their distance from the one with the most votes.
-std::vector<std::size_t> fromTheBestOutwards(const std::vector<Candidate>& candidates,
-                                             const std::vector<const PpfModel*>& models)
-{
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (candidates.empty()) return order;
-  std::vector<Eigen::Vector3f> centers;
-  for (const Candidate& candidate : candidates)
-    centers.push_back(candidate.T_camera_model * models[candidate.model]->data().center);
-  const auto best =
-      std::max_element(candidates.begin(), candidates.end(),
-                       [](const auto& a, const auto& b) { return a.votes < b.votes; });
-  const Eigen::Vector3f start = centers[static_cast<std::size_t>(best - candidates.begin())];
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b)
-                   { return (centers[a] - start).norm() < (centers[b] - start).norm(); });
-  return order;
 }
 }  // namespace
 
@@ -212,64 +163,5 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
     candidates.push_back(candidate);
   }
   append(clusters, distribution, model_index, result);
-}
-
-void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                      const DetectorConfig& config, const Deadline& deadline,
-                      const std::function<void(const char*)>& lap,
-                      std::vector<Candidate>& candidates)
-{
-  dropHopeless(image, models, config, deadline, candidates);
-  lap("pruning");
-  const std::vector<std::size_t> order = fromTheBestOutwards(candidates, models);
-  for (std::size_t first = 0; first < order.size() && !deadline.passed(); first += kBatch)
-  {
-    const std::size_t count = std::min(kBatch, order.size() - first);
-    const auto refine = [&](std::size_t i)
-    {
-      Candidate& candidate = candidates[order[first + i]];
-      candidate.T_camera_model =
-          refinePose(image, *models[candidate.model], candidate.T_camera_model, config);
-    };
-    parallelFor(config.threads, count, refine);
-    lap("refinement");
-    const auto verify = [&](std::size_t i)
-    {
-      Candidate& candidate = candidates[order[first + i]];
-      candidate.evidence =
-          gatherEvidence(image, *models[candidate.model], candidate.T_camera_model, config);
-      candidate.verified = true;
-    };
-    parallelFor(config.threads, count, verify);
-    lap("verification");
-  }
-}
-
-std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
-                                    const DetectorConfig& config,
-                                    const std::vector<Candidate>& candidates,
-                                    const std::vector<SelectedPose>& selected)
-{
-  std::vector<Candidate> turned;
-  for (const SelectedPose& standing : selected)
-  {
-    const Candidate& pose = candidates[standing.candidate];
-    if (poseScore(pose.evidence, standing.confirmed) < config.min_score) continue;
-    for (const Eigen::Isometry3f& turn : models[pose.model]->lookAlikes())
-    {
-      Candidate candidate;
-      candidate.model = pose.model;
-      candidate.cluster = pose.cluster;
-      candidate.votes = pose.votes;
-      candidate.T_camera_model = pose.T_camera_model * turn;
-      const auto is_here = [&](const Candidate& other)
-      {
-        return other.verified &&
-               areNear(other, candidate, *models[pose.model], kReachedRel, kReached_rad);
-      };
-      if (std::none_of(candidates.begin(), candidates.end(), is_here)) turned.push_back(candidate);
-    }
-  }
-  return turned;
 }
 }  // namespace ppf_bin_picking

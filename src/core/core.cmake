@@ -15,6 +15,7 @@ add_library(
   ${core_dir}/boundary_matcher.cpp
   ${core_dir}/boundary_table.cpp
   ${core_dir}/candidate_search.cpp
+  ${core_dir}/candidate_verification.cpp
   ${core_dir}/canonical_pose.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_result.cpp
@@ -47,6 +48,7 @@ add_library(
   ${core_dir}/ppf_model.cpp
   ${core_dir}/range_image.cpp
   ${core_dir}/reliability.cpp
+  ${core_dir}/sample_balance.cpp
   ${core_dir}/selection.cpp
   ${core_dir}/self_distance.cpp
   ${core_dir}/sparse_fit.cpp

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/detector.hpp"
 
 #include "ppf_bin_picking/core/candidate_search.hpp"
+#include "ppf_bin_picking/core/candidate_verification.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pose_report.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"

@@ -54,6 +54,7 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("max_spread_rel", max_spread_rel, kTiny, kHuge);
   check.within("max_candidates", max_candidates, 1, kMany);
   check.within("min_sparse_balance", min_sparse_balance, -2.0, 1.0);
+  check.within("min_look_balance", min_look_balance, -2.0, 1.0);
   check.within("icp_iterations", icp_iterations, 0, 100);
   check.within("depth_gate_rel", depth_gate_rel, kTiny, kHuge);
   check.within("normal_gate_rad", normal_gate_rad, kTiny, M_PI_2);

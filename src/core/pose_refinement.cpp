@@ -4,6 +4,7 @@
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
+#include "ppf_bin_picking/core/sample_balance.hpp"
 
 #include <Eigen/Dense>
 
@@ -131,11 +132,11 @@ Eigen::Isometry3f moved(const Eigen::Isometry3f& T_camera_model, const Vector6f&
   result.makeAffine();
   return result;
 }
+
 /// What steps have in common.
-struct Refinement
+struct Stepper
 {
-  Refinement(const RangeImage& given_image, const PpfModel& given_model,
-             const DetectorConfig& config)
+  Stepper(const RangeImage& given_image, const PpfModel& given_model, const DetectorConfig& config)
       : image(given_image),
         model(given_model),
         arrays(arraysOf(given_image)),
@@ -200,46 +201,60 @@ struct Refinement
 };
 }  // namespace
 
-Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
-                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+void refineByOneLook(const RangeImage& image, const PpfModel& model, const DetectorConfig& config,
+                     Refinement& refinement)
 {
-  Refinement refinement(image, model, config);
-  const float last_gate_m = refinement.last_gate_m;
-  float first_gate_m = 0;
-  Eigen::Isometry3f pose = T_camera_model;
-  for (int i = 0; i < config.icp_iterations; ++i)
+  Stepper stepper(image, model, config);
+  const float last_gate_m = stepper.last_gate_m;
+  Eigen::Isometry3f& pose = refinement.T_camera_model;
+  const int first_step = refinement.steps;
+  const int end = std::min(first_step + kStepsPerView, config.icp_iterations);
+  for (int& i = refinement.steps; i < end; ++i)
   {
     const float progress =
         static_cast<float>(i) / static_cast<float>(std::max(1, config.icp_iterations - 1));
     const int reach_px =
         kOutlineReach_px - static_cast<int>(progress * (kOutlineReach_px - kLastOutlineReach_px));
-    if (i % kStepsPerView == 0) refinement.see(pose, reach_px);
-    if (i == 0) first_gate_m = refinement.firstGate(pose);
+    if (i == first_step) stepper.see(pose, reach_px);
+    if (i == 0) refinement.first_gate_m = stepper.firstGate(pose);
+    const float first_gate_m = refinement.first_gate_m;
     const float share = i + kStepsPerView < config.icp_iterations ? 1.0F : 0.5F;
     const float gate_m =
         std::max(last_gate_m, first_gate_m * std::pow(last_gate_m / first_gate_m, 1.5F * progress));
-    if (!refinement.step(gate_m, reach_px, share, pose)) break;
-    if (gate_m == last_gate_m && refinement.last_step_m < kConvergedRel * refinement.diameter_m)
-      break;
+    refinement.done =
+        !stepper.step(gate_m, reach_px, share, pose) ||
+        (gate_m == last_gate_m && stepper.last_step_m < kConvergedRel * stepper.diameter_m);
+    if (refinement.done) break;
   }
-  return pose;
+  refinement.done = refinement.done || refinement.steps == config.icp_iterations;
+  if (first_step == 0 && end > 0)
+    refinement.balance = sampleBalance(image, stepper.part.surface, pose, last_gate_m, config);
+}
+
+Eigen::Isometry3f refinePose(const RangeImage& image, const PpfModel& model,
+                             const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
+{
+  Refinement refinement{T_camera_model};
+  while (!refinement.done)
+    refineByOneLook(image, model, config, refinement);
+  return refinement.T_camera_model;
 }
 
 Eigen::Isometry3f settlePose(const RangeImage& image, const PpfModel& model,
                              const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
-  Refinement refinement(image, model, config);
+  Stepper stepper(image, model, config);
   Eigen::Isometry3f pose = T_camera_model;
   for (int i = 0; i < kSettlingSteps && config.icp_iterations > 0; ++i)
   {
-    if (i % kStepsPerView == 0) refinement.see(pose, kLastOutlineReach_px);
-    if (!refinement.step(refinement.last_gate_m, kLastOutlineReach_px, kSettlingShare, pose)) break;
+    if (i % kStepsPerView == 0) stepper.see(pose, kLastOutlineReach_px);
+    if (!stepper.step(stepper.last_gate_m, kLastOutlineReach_px, kSettlingShare, pose)) break;
   }
   const Eigen::Vector3f& center = model.data().center;
   const float shift_m = (pose * center - T_camera_model * center).norm();
   const Eigen::AngleAxisf turn(
       Eigen::Matrix3f(T_camera_model.linear().transpose() * pose.linear()));
-  const float farthest_m = shift_m + turn.angle() * refinement.diameter_m / 2;
-  return farthest_m < kSettlingRel * refinement.diameter_m ? pose : T_camera_model;
+  const float farthest_m = shift_m + turn.angle() * stepper.diameter_m / 2;
+  return farthest_m < kSettlingRel * stepper.diameter_m ? pose : T_camera_model;
 }
 }  // namespace ppf_bin_picking

@@ -1,4 +1,4 @@
-#include "ppf_bin_picking/core/candidate_search.hpp"
+#include "ppf_bin_picking/core/candidate_verification.hpp"
 #include "ppf_bin_picking/core/look_alikes.hpp"
 
 #include "support/shapes.hpp"

@@ -195,6 +195,26 @@ TEST_F(BracketRefinement, takesAsManyStepsAsTheConfigurationSays)
   EXPECT_LT(error_m(all), 0.3 * error_m(one));
 }
 
+TEST_F(BracketRefinement, goesOneLookAfterTheOtherToTheSamePose)
+{
+  const RangeImage image = noisyImage({wall(0.6), {bracketMesh(), pose(1)}}, kNoise_m);
+  const Eigen::Isometry3f start =
+      disturbed(pose(1), model_, 0.15, {1, 0, 0.5}, {0.002, 0.002, 0.002}).cast<float>();
+  Refinement refinement{start};
+  EXPECT_EQ(refinement.balance, 1);
+  int looks = 0;
+  for (; !refinement.done && looks < 100; ++looks)
+    refineByOneLook(image, model_, config_, refinement);
+  EXPECT_GE(looks, 2);
+  EXPECT_EQ(refinement.T_camera_model.matrix(), refinePose(image, model_, start, config_).matrix());
+  EXPECT_GT(refinement.balance, 0.5F);
+
+  Refinement before_all{(Eigen::Translation3d(0, 0, -0.2) * pose(1)).cast<float>()};
+  refineByOneLook(image, model_, config_, before_all);
+  EXPECT_LT(before_all.balance, -1.5F);
+  EXPECT_TRUE(before_all.done) << "there is nothing to fit";
+}
+
 TEST_F(BracketRefinement, leavesThePoseWhereNothingOfThePartIsSeen)
 {
   const Eigen::Isometry3f start = pose(0).cast<float>();

@@ -2,6 +2,7 @@
 set(core_tests
     test_ambiguity
     test_boundary
+    test_candidate_verification
     test_canonical_pose
     test_dbscan
     test_detector
@@ -28,6 +29,7 @@ set(core_tests
     test_ppf_model
     test_range_image
     test_reliability
+    test_sample_balance
     test_selection
     test_self_distance
     test_sparse_fit

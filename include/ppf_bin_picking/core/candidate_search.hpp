@@ -1,5 +1,4 @@
-/// @file From the range image to verified candidates: sampling, voting, clustering, refinement,
-/// verification.
+/// @file From the range image to candidates: sampling, voting, clustering.
 #pragma once
 
 #include "ppf_bin_picking/core/detection_result.hpp"
@@ -51,20 +50,4 @@ void searchCandidates(const RangeImage& image, const PpfModel& model, std::uint3
                       const DetectorConfig& config, const Deadline& deadline,
                       const std::function<void(const char*)>& lap, DetectionResult& result,
                       std::vector<Candidate>& candidates);
-
-/// Refines each candidate and gathers its evidence, from the one with the most votes outwards, so
-/// that a deadline leaves a place of which all candidates are verified.
-/// @param lap  Called with the name of each stage at its end, several times.
-void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                      const DetectorConfig& config, const Deadline& deadline,
-                      const std::function<void(const char*)>& lap,
-                      std::vector<Candidate>& candidates);
-
-/// What the standing poses may be confused with: each one that scores enough, turned as
-/// PpfModel::lookAlikes() says, unless a candidate has come there. Not yet verified; the votes and
-/// the cluster are the standing pose's.
-std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
-                                    const DetectorConfig& config,
-                                    const std::vector<Candidate>& candidates,
-                                    const std::vector<SelectedPose>& selected);
 }  // namespace ppf_bin_picking

@@ -70,6 +70,7 @@ struct DetectorConfig
   // Refinement, verification and selection
   int max_candidates = 300;          ///< Poses that are refined and verified at most. >= 1.
   double min_sparse_balance = -0.6;  ///< A quick fit worse than this ends a pose. [-2, 1].
+  double min_look_balance = -0.2;    ///< ... or worse than this after the first look. [-2, 1].
   int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
   double depth_gate_rel = 0.02;      ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;      ///< ... and within this turn of the normal. (0, pi/2].
@@ -120,6 +121,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("min_reliability", config.min_reliability);
   visit("max_candidates", config.max_candidates);
   visit("min_sparse_balance", config.min_sparse_balance);
+  visit("min_look_balance", config.min_look_balance);
   visit("icp_iterations", config.icp_iterations);
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);

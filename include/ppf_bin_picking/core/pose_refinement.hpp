@@ -9,6 +9,22 @@
 
 namespace ppf_bin_picking
 {
+/// A pose on its way through the refinement.
+struct Refinement
+{
+  Eigen::Isometry3f T_camera_model;  ///< Mesh frame [m].
+  int steps = 0;                     ///< Taken so far.
+  float first_gate_m = 0;            ///< Of the surface's measurements.
+  /// What the first look's surface says of the pose where its steps ended, see sampleBalance(); 1
+  /// before it.
+  float balance = 1;
+  bool done = false;  ///< No look is left, or too little is seen of the part.
+};
+
+/// Looks at the part from where it is, once, and takes the next steps of refinePose().
+void refineByOneLook(const RangeImage& image, const PpfModel& model, const DetectorConfig& config,
+                     Refinement& refinement);
+
 /// Moves a pose so that the surface the camera should see fits the measured one: projective
 /// point-to-plane ICP (Chen and Medioni 1992) with a gate that narrows and Tukey weights.
 /// Directions that the data does not hold are not stepped along.
