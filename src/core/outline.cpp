@@ -77,6 +77,14 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
                  z0;
   }
 }
+
+/// The end of a surface that the cloud lies behind from a pixel on. What is lost or mixed in
+/// between may be the part's, up to an edge in the pixel behind: of the ends that this allows, the
+/// nearest to the part's outline.
+int endBetween(int last_px, int behind_px)
+{
+  return behind_px == last_px + 1 ? last_px : std::clamp(0, last_px, behind_px);
+}
 }  // namespace
 
 bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
@@ -150,14 +158,16 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
       absent += z > 0 && behind_m > 0 ? 1 : 0;
       continue;
     }
-    if (z == 0) return {OutlineEnd::kMissing, last_px};
-    if (behind_m > 0) return {OutlineEnd::kBehind, last_px};
+    if (z == 0 && t >= 0) return {OutlineEnd::kMissing, last_px};
+    if (z == 0) continue;  // a lost flank, unless the cloud lies behind before the outline
+    if (behind_m > 0) return {OutlineEnd::kBehind, endBetween(last_px, t)};
     const bool rises = z > last_z - gate_m;  // else something is in front
     last_z = z;
     if (rises && t == last_px + 1 && t < reach_px) continue;  // one pixel may mix two surfaces
     return {rises ? OutlineEnd::kGoesOn : OutlineEnd::kHidden, last_px};
   }
   if (on_surface) return {OutlineEnd::kGoesOn, last_px};
-  return {!hidden && absent > reach_px ? OutlineEnd::kAbsent : OutlineEnd::kHidden, 0};
+  if (hidden || absent <= reach_px) return {};
+  return {OutlineEnd::kAbsent, -reach_px};
 }
 }  // namespace ppf_bin_picking

@@ -22,8 +22,7 @@ constexpr int kOutlineStride = 2;            // every so many pixels of the outl
 constexpr int kLastOutlineReach_px = 5;
 constexpr float kOutlineWeight = 0.5F;  // of an outline pixel, relative to a surface point
 constexpr float kShadowWeight = 0.3F;   // ... beyond which nothing was measured
-constexpr float kOutlineGates =
-    0.7F;  // depth gate across the outline, in last gates of the surface
+constexpr float kFullPull_px = 2.0F;    // farther ends of the surface pull no more than these
 constexpr float kFirstGateRel = 0.10F;  // of the diameter
 constexpr float kNarrower = 0.7F;       // each gate that is tried, relative to the one before
 constexpr float kNearShare = 0.85F;     // of the weight within the widest gate
@@ -102,16 +101,16 @@ void addOutline(const RangeImage& image, const VisiblePart& part,
   {
     const Eigen::Vector3f p = T_camera_model * part.outline_points[i];
     const OutlineMatch match = matchOutline(image, part.outline[i], p, gate_m, reach_px);
-    if (match.end != OutlineEnd::kBehind && match.end != OutlineEnd::kMissing) continue;
+    if (match.end == OutlineEnd::kGoesOn || match.end == OutlineEnd::kHidden) continue;
     // What is missing within the outline may be lost of the part: flanks and shiny edges are.
     if (match.end == OutlineEnd::kMissing && match.offset_px < 0) continue;
-    const float share = static_cast<float>(match.offset_px) / static_cast<float>(reach_px + 1);
-    const float tukey = (1 - share * share) * (1 - share * share);
-    const float weight = match.end == OutlineEnd::kBehind ? kOutlineWeight : kShadowWeight;
+    const auto offset_px = static_cast<float>(match.offset_px);
+    const float huber = kFullPull_px / std::max(kFullPull_px, std::abs(offset_px));
+    const float weight = match.end == OutlineEnd::kMissing ? kShadowWeight : kOutlineWeight;
     const Eigen::Vector3f direction(part.outline[i].direction.x(), part.outline[i].direction.y(),
                                     0);
     equations.add(motionJacobian((p - center) / lever_m, direction),
-                  static_cast<float>(match.offset_px) * p.z() / image.camera.fx, weight * tukey);
+                  offset_px * p.z() / image.camera.fx, weight * huber);
   }
 }
 
@@ -182,9 +181,8 @@ struct Stepper
     NormalEquations equations =
         alignmentOf(part.surface, arrays, pose,
                     {{center.x(), center.y(), center.z()}, lever_m, gate_m, kMinNormalCosine});
-    addOutline(image, part, pose, center, lever_m, kOutlineGates * last_gate_m, reach_px,
-               equations);
     if (!(equations.weight > 6)) return false;
+    addOutline(image, part, pose, center, lever_m, last_gate_m, reach_px, equations);
     const Vector6f whole = stepOf(equations);
     pose = moved(pose, share * whole, center, lever_m);
     last_step_m = whole.norm();

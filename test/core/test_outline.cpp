@@ -177,6 +177,18 @@ TEST_P(MatchOutline, isMissingWhereNothingIsMeasuredBeyond)
     expect([&](int t) { return t <= end ? 0.5F : 0.0F; }, OutlineEnd::kMissing, end);
 }
 
+TEST_P(MatchOutline, aLostFlankEndsWhereTheCloudLiesBehindWithinTheOutline)
+{
+  const auto lost_between = [](int last, int behind) {
+    return [=](int t) { return t <= last ? 0.5F : t < behind ? 0.0F : 0.6F; };
+  };
+  expect(lost_between(-6, -2), OutlineEnd::kBehind, -2);
+  expect(lost_between(-3, 0), OutlineEnd::kBehind, 0);
+  expect(lost_between(-3, 1), OutlineEnd::kMissing, -3);  // all that was lost may be the part's
+  // A hole is no end.
+  expect([](int t) { return t == -3 ? 0.0F : t <= 1 ? 0.5F : 0.6F; }, OutlineEnd::kBehind, 1);
+}
+
 TEST_P(MatchOutline, goesOnWhereTheSurfaceDoesStraightOrRising)
 {
   expect([](int) { return 0.5F; }, OutlineEnd::kGoesOn, kReach_px);
@@ -206,10 +218,10 @@ TEST_P(MatchOutline, isHiddenWhereSomethingElseLiesInFront)
 
 TEST_P(MatchOutline, isAbsentWhereTheCloudLiesBehindThePart)
 {
-  expect([](int) { return 0.6F; }, OutlineEnd::kAbsent, 0);
-  expect([](int t) { return t > 2 ? 0.0F : 0.6F; }, OutlineEnd::kAbsent, 0);
+  expect([](int) { return 0.6F; }, OutlineEnd::kAbsent, -kReach_px);
+  expect([](int t) { return t > 2 ? 0.0F : 0.6F; }, OutlineEnd::kAbsent, -kReach_px);
   // What begins beyond the outline is not the part's.
-  expect([](int t) { return t > 0 ? 0.5F : 0.6F; }, OutlineEnd::kAbsent, 0);
+  expect([](int t) { return t > 0 ? 0.5F : 0.6F; }, OutlineEnd::kAbsent, -kReach_px);
 }
 
 TEST_P(MatchOutline, isHiddenWhereTooLittleIsMeasuredToTell)

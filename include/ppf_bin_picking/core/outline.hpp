@@ -68,7 +68,7 @@ std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamer
 enum class OutlineEnd
 {
   kBehind,   ///< The surface ends there: farther out the cloud lies behind.
-  kMissing,  ///< Farther out nothing was measured; the surface may have ended there.
+  kMissing,  ///< Up to the outline or beyond, nothing was measured; the surface may end there.
   kGoesOn,   ///< The surface goes on beyond the outline, straight or rising.
   kAbsent,   ///< The part's surface is not there; the cloud lies behind it.
   kHidden,   ///< Something else lies in front, or too little was measured to tell.
@@ -78,8 +78,10 @@ enum class OutlineEnd
 struct OutlineMatch
 {
   OutlineEnd end = OutlineEnd::kHidden;
-  int offset_px =
-      0;  ///< Last pixel on the surface: above zero beyond the part's outline, below within it.
+  /// Last pixel on the surface: above zero beyond the part's outline, below within it. Where pixels
+  /// were lost before the cloud lies behind, the nearest to the outline of the ends they allow;
+  /// where the surface is absent, as far within as was looked.
+  int offset_px = 0;
 };
 
 /// Follows the measured surface across an outline point from the inside out.
