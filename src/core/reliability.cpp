@@ -18,22 +18,22 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -0.746;
+constexpr double kIntercept = 0.001;
 
 std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.121, 2.482, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.810, 0.446, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.642, -1.138, UnreliableReason::kSlippage},
-      {pose.slide_share, -1.719, 0.215, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.617, 0.191, UnreliableReason::kSpread},
-      {pose.looked_through, -17.477, 0.013, UnreliableReason::kLowScore},
-      {pose.outline_broken, -0.918, 0.145, UnreliableReason::kLowScore},
-      {pose.claimed, -17.701, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.490, 3.299, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 2.173, 0.784, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.050, 2.503, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.641, 0.445, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.555, -1.132, UnreliableReason::kSlippage},
+      {pose.slide_share, -1.615, 0.201, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -1.243, 0.190, UnreliableReason::kSpread},
+      {pose.looked_through, -19.166, 0.012, UnreliableReason::kLowScore},
+      {pose.outline_broken, -1.027, 0.136, UnreliableReason::kLowScore},
+      {pose.claimed, -16.615, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.318, 3.298, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.636, 0.780, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace
