@@ -30,12 +30,12 @@ struct CenteredPose
   Eigen::Matrix3f rotation;
   Eigen::Vector3f center;  ///< Camera frame [m].
 
-  Eigen::Isometry3f T_camera_samples() const
+  Eigen::Isometry3f transform() const
   {
-    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-    T.linear() = rotation;
-    T.translation() = center;
-    return T;
+    Eigen::Isometry3f T_camera_samples = Eigen::Isometry3f::Identity();
+    T_camera_samples.linear() = rotation;
+    T_camera_samples.translation() = center;
+    return T_camera_samples;
   }
 };
 
@@ -59,7 +59,7 @@ bool step(const ImageArrays& image, const PointArrays& samples, float lever_m, f
           CenteredPose& pose)
 {
   NormalEquations equations = alignmentOf(
-      samples, image, pose.T_camera_samples(),
+      samples, image, pose.transform(),
       {{pose.center.x(), pose.center.y(), pose.center.z()}, lever_m, gate_m, kMinNormalCosine});
   if (!(equations.weight > 6)) return false;
   Matrix6f& matrix = equations.matrix;
@@ -93,8 +93,7 @@ SparseFit fitSparsely(const RangeImage& image, const PpfModel& model,
   }
   const float gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * data.diameter_m;
   SparseFit fit;
-  fit.balance =
-      sampleBalance(image, facingSamples(data, pose), pose.T_camera_samples(), gate_m, config);
+  fit.balance = sampleBalance(image, facingSamples(data, pose), pose.transform(), gate_m, config);
   fit.T_camera_model.linear() = pose.rotation;
   fit.T_camera_model.translation() = pose.center - pose.rotation * data.center;
   return fit;
