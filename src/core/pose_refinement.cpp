@@ -16,7 +16,7 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr int kStepsPerView = 4;  // the visible surface is rendered anew after so many steps
+constexpr int kStepsPerLook = 4;  // the visible surface is rendered anew after so many steps
 constexpr std::size_t kSurfacePoints = 500;  // of the visible surface, about
 constexpr int kOutlineStride = 2;            // every so many pixels of the outline
 constexpr int kLastOutlineReach_px = 5;
@@ -206,7 +206,7 @@ void refineByOneLook(const RangeImage& image, const PpfModel& model, const Detec
   const float last_gate_m = stepper.last_gate_m;
   Eigen::Isometry3f& pose = refinement.T_camera_model;
   const int first_step = refinement.steps;
-  const int end = std::min(first_step + kStepsPerView, config.icp_iterations);
+  const int end = std::min(first_step + kStepsPerLook, config.icp_iterations);
   for (int& i = refinement.steps; i < end; ++i)
   {
     const float progress =
@@ -216,7 +216,7 @@ void refineByOneLook(const RangeImage& image, const PpfModel& model, const Detec
     if (i == first_step) stepper.see(pose, reach_px);
     if (i == 0) refinement.first_gate_m = stepper.firstGate(pose);
     const float first_gate_m = refinement.first_gate_m;
-    const float share = i + kStepsPerView < config.icp_iterations ? 1.0F : 0.5F;
+    const float share = i + kStepsPerLook < config.icp_iterations ? 1.0F : 0.5F;
     const float gate_m =
         std::max(last_gate_m, first_gate_m * std::pow(last_gate_m / first_gate_m, 1.5F * progress));
     refinement.done =
@@ -245,7 +245,7 @@ Eigen::Isometry3f settlePose(const RangeImage& image, const PpfModel& model,
   Eigen::Isometry3f pose = T_camera_model;
   for (int i = 0; i < kSettlingSteps && config.icp_iterations > 0; ++i)
   {
-    if (i % kStepsPerView == 0) stepper.see(pose, kLastOutlineReach_px);
+    if (i % kStepsPerLook == 0) stepper.see(pose, kLastOutlineReach_px);
     if (!stepper.step(stepper.last_gate_m, kLastOutlineReach_px, kSettlingShare, pose)) break;
   }
   const Eigen::Vector3f& center = model.data().center;

@@ -6,7 +6,6 @@
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"
-#include "ppf_bin_picking/core/selection.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 #include "ppf_bin_picking/core/verification.hpp"
 

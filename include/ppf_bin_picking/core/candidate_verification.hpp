@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ppf_bin_picking/core/candidate_search.hpp"
+#include "ppf_bin_picking/core/selection.hpp"
 
 #include <functional>
 #include <vector>
