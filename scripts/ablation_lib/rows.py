@@ -120,6 +120,7 @@ ROWS = (
         "drops next to nothing that is right; kept for the time",
     ),
     Row("look-0", {"min_look_balance": 0}),
+    Row("no-climb", {"climb": False}),
     Row("candidates-600", {"max_candidates": 600}),
     Row("one-peak", {"peaks_per_reference": 1}),
     Row("references-0.05", {"reference_share": 0.05}),

@@ -88,6 +88,14 @@ TERMS = (
         "kLowScore",
     ),
     Term(
+        "goes_on",
+        float,
+        "share of the same edges beyond which the surface goes on, held poses' surfaces aside",
+        -1,
+        "pose.goes_on",
+        "kSlippage",
+    ),
+    Term(
         "claimed",
         float,
         "share of the expected surface that better poses explain",

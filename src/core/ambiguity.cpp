@@ -22,21 +22,24 @@ Owners ownersOf(const std::vector<Candidate>& candidates, const std::vector<Sele
   return owners;
 }
 
-/// The share of the outline against the worst slide that does not hold.
-double slideShare(const PoseEvidence& evidence, std::int32_t self, const Owners& owners,
-                  const std::vector<bool>& held_poses)
+/// Looks at what lies beyond a pose's outline: the share of it against the worst slide that does
+/// not hold, and the pixels where the surface goes on.
+void assessOutline(const PoseEvidence& evidence, std::int32_t self, const Owners& owners,
+                   const std::vector<bool>& held_poses, Ambiguity& ambiguity)
 {
   SlideStops held = evidence.slide_held, broken = evidence.slide_broken;
+  ambiguity.goes_on_px = 0;
   for (const PoseEvidence::Continuation& continuation : evidence.goes_on)
   {
     const std::int32_t owner = owners[continuation.pixel];
     const bool stops = owner >= 0 && owner != self && held_poses[static_cast<std::size_t>(owner)];
     addSlideStop(continuation.direction, stops ? held : broken);
+    if (!stops) ++ambiguity.goes_on_px;
   }
-  double worst = 0;
+  ambiguity.slide_share = 0;
   for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k] + broken[k] > 0) worst = std::max(worst, broken[k] / (held[k] + broken[k]));
-  return worst;
+    if (held[k] + broken[k] > 0)
+      ambiguity.slide_share = std::max(ambiguity.slide_share, broken[k] / (held[k] + broken[k]));
 }
 
 void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& candidates,
@@ -50,8 +53,8 @@ void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& ca
     for (std::size_t i = 0; i < selected.size(); ++i)
     {
       if (held[i]) continue;
-      ambiguities[i].slide_share = slideShare(candidates[selected[i].candidate].evidence,
-                                              static_cast<std::int32_t>(i), owners, held);
+      assessOutline(candidates[selected[i].candidate].evidence, static_cast<std::int32_t>(i),
+                    owners, held, ambiguities[i]);
       held[i] = ambiguities[i].slide_share <= config.max_slide_share;
       changed = changed || held[i];
     }
@@ -80,8 +83,8 @@ void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConf
           areNear(pose, candidates[c], *models[pose.model], config.group_distance_rel,
                   config.group_angle_rad))
         continue;
-      const double lead =
-          seenBalance(pose.evidence, selected[i].confirmed) - seenBalance(rival, free + owned[i]);
+      const double lead = seenBalance(pose.evidence, selected[i].confirmed) - pose.climbed -
+                          seenBalance(rival, free + owned[i]);
       ambiguities[i].margin = std::min(ambiguities[i].margin, lead / confirmed);
     }
   }

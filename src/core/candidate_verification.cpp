@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/candidate_verification.hpp"
 
+#include "ppf_bin_picking/core/evidence_climb.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 #include "ppf_bin_picking/core/sparse_fit.hpp"
 
@@ -15,7 +16,19 @@ namespace
 {
 constexpr double kReachedRel = 0.02;   // a candidate nearer than this has come to a look-alike
 constexpr double kReached_rad = 0.05;  // ... and turned by less
+constexpr double kLittle = 0.3;  // balance of evidence, per confirmed pixel, that needs no climb
+constexpr double kStrangeShare = 0.5;  // of the edges, where another surface runs on: no climb
 constexpr std::size_t kBatch = 32;     // candidates between two looks at the deadline
+
+/// True if a pose is worth a climb: the cloud says little for it, but not that it lies within
+/// another surface. There a climb would find the place that hides best what is wrong.
+bool shouldClimb(const PoseEvidence& evidence)
+{
+  const double weight = evidence.confirmed_weight;
+  const double strange_px = static_cast<double>(evidence.goes_on.size()) + evidence.pierced;
+  return evidenceBalance(evidence, weight) < kLittle * weight &&
+         strange_px <= kStrangeShare * evidence.edgesInSight();
+}
 
 /// Leaves the candidates that are kept, in their order.
 void keepOnly(const std::vector<std::uint8_t>& given_up, std::vector<Candidate>& candidates)
@@ -149,5 +162,24 @@ std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
     }
   }
   return turned;
+}
+
+void climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                   const DetectorConfig& config, const std::vector<SelectedPose>& selected,
+                   std::vector<Candidate>& candidates)
+{
+  const auto climb = [&](std::size_t i)
+  {
+    Candidate& pose = candidates[selected[i].candidate];
+    if (!shouldClimb(pose.evidence)) return;
+    const double before = seenBalance(pose.evidence, pose.evidence.confirmed_weight);
+    Climb climb =
+        climbEvidence(image, *models[pose.model], pose.T_camera_model, pose.evidence, config);
+    pose.T_camera_model = climb.T_camera_model;
+    pose.evidence = std::move(climb.evidence);
+    pose.climbed =
+        std::max(0.0, seenBalance(pose.evidence, pose.evidence.confirmed_weight) - before);
+  };
+  parallelFor(config.threads, selected.size(), climb);
 }
 }  // namespace ppf_bin_picking

@@ -22,6 +22,7 @@ add_library(
   ${core_dir}/detector.cpp
   ${core_dir}/detector_config.cpp
   ${core_dir}/draw_kernel.cpp
+  ${core_dir}/evidence_climb.cpp
   ${core_dir}/explanation.cpp
   ${core_dir}/look_alikes.cpp
   ${core_dir}/mismatch.cpp

@@ -184,6 +184,12 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   work.selected = selectCandidates(candidates, image.depth.size());
   lap("selection");
   addLookAlikes(models, config, deadline, lap, work);
+  if (config.climb)
+  {
+    climbStanding(image, models, config, work.selected, candidates);
+    work.selected = selectCandidates(candidates, image.depth.size());
+    lap("climbing");
+  }
   const bool cut_short = deadline.passed();
   reportPoses(models, config, candidates, work.selected, image, result);
   lap("selection");

@@ -70,8 +70,7 @@ DetectedPose poseOfCandidate(const Candidate& candidate, const PpfModel& model, 
   const PoseEvidence& evidence = candidate.evidence;
   const double expected = std::max(1.0, evidence.expected());
   pose.looked_through = evidence.looked_through / expected;
-  const double edges_px = std::max(
-      1.0, evidence.outline_held + evidence.outline_broken + evidence.stepped + evidence.pierced);
+  const double edges_px = evidence.edgesInSight();
   pose.outline_broken = (evidence.outline_broken + evidence.pierced) / edges_px;
   pose.pierced = evidence.pierced / edges_px;
   pose.claimed = (evidence.confirmed_weight - confirmed) / expected;
@@ -203,6 +202,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     DetectedPose pose =
         poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
     pose.slide_share = ambiguities[i].slide_share;
+    pose.goes_on = ambiguities[i].goes_on_px / candidate.evidence.edgesInSight();
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
     ClusterShare share = shares[i];

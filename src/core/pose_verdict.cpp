@@ -30,15 +30,16 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
     case UnreliableReason::kRunnerUp:
       return rivalOf(pose);
     case UnreliableReason::kSlippage:
-      return "what is seen of it hardly keeps it from sliding or turning";
+      return "the measured surface goes on at " + percent(pose.goes_on) +
+             " of its edges, and what is seen of it hardly keeps it from sliding or turning";
     case UnreliableReason::kSpread:
       return "its hypotheses spread over " + percent(pose.spread) + " of the part's diameter";
     case UnreliableReason::kOverlap:
       return "better poses explain " + percent(pose.claimed) + " of its surface";
     default:
       return "the cloud lies behind " + percent(pose.looked_through) +
-             " of the surface and goes on at " + percent(pose.outline_broken) + " of the edges, " +
-             percent(pose.visible_fraction) + " is not hidden, " +
+             " of the surface and does not end at " + percent(pose.outline_broken) +
+             " of the edges, " + percent(pose.visible_fraction) + " is not hidden, " +
              std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }

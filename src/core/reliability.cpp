@@ -18,22 +18,23 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = 0.001;
+constexpr double kIntercept = -0.721;
 
-std::array<Term, 10> termsOf(const DetectedPose& pose)
+std::array<Term, 11> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.050, 2.503, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.641, 0.445, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.555, -1.132, UnreliableReason::kSlippage},
-      {pose.slide_share, -1.615, 0.201, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.243, 0.190, UnreliableReason::kSpread},
-      {pose.looked_through, -19.166, 0.012, UnreliableReason::kLowScore},
-      {pose.outline_broken, -1.027, 0.136, UnreliableReason::kLowScore},
-      {pose.claimed, -16.615, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.318, 3.298, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.636, 0.780, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.181, 2.447, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.687, 0.453, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.526, -1.127, UnreliableReason::kSlippage},
+      {pose.slide_share, -0.949, 0.186, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.788, 0.191, UnreliableReason::kSpread},
+      {pose.looked_through, -21.411, 0.012, UnreliableReason::kLowScore},
+      {pose.outline_broken, -0.013, 0.159, UnreliableReason::kLowScore},
+      {pose.goes_on, -4.834, 0.049, UnreliableReason::kSlippage},
+      {pose.claimed, -16.731, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.353, 3.298, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.974, 0.781, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace

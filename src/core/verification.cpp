@@ -19,7 +19,9 @@ constexpr float kRingRel = 0.04F;  // width of the ring along the outline where 
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
 constexpr float kPierceGates = 0.5F;    // ... and smaller rises towards the camera are no step
-constexpr double kMissingWeight = 0.4;  // of a contradiction
+constexpr float kEvenGates =
+    0.25F;  // of the depth gate: how far a plane's next pixel may lie beside it
+constexpr double kMissingWeight = 0.4;    // of a contradiction
 constexpr double kMissingBalance = 0.56;  // ... in the balance of evidence
 constexpr double kHiddenWeight = 0.3;     // likewise
 constexpr double kEdgeWeight = 4.0;       // of a broken outline pixel, in pixels of surface
@@ -151,16 +153,36 @@ private:
       {
         const float hidden_m = behindAt(column, row);
         if (!(hidden_m < -gate_m_)) continue;
-        float least_step_m = std::numeric_limits<float>::infinity();
+        bool beside_surface = false, goes_on = false;
         for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
         {
           const float beside_m = behindAt(column + dc, row + dr);
-          if (std::abs(beside_m) <= gate_m_)
-            least_step_m = std::min(least_step_m, beside_m - hidden_m);
+          if (!(std::abs(beside_m) <= gate_m_)) continue;
+          beside_surface = true;
+          goes_on = goes_on || beside_m - hidden_m < kPierceGates * gate_m_ ||
+                    isEvenCloud(column + dc, row + dr, column, row);
         }
-        if (std::isinf(least_step_m)) continue;
-        ++(least_step_m < kPierceGates * gate_m_ ? evidence_.pierced : evidence_.stepped);
+        if (beside_surface) ++(goes_on ? evidence_.pierced : evidence_.stepped);
       }
+  }
+
+  /// True if the cloud at the second pixel is as deep as the first one's plane is there.
+  bool isEvenCloud(int column, int row, int next_column, int next_row) const
+  {
+    const std::size_t index = image_.index(view_.left + column, view_.top + row);
+    const std::size_t next = image_.index(view_.left + next_column, view_.top + next_row);
+    const Eigen::Vector3f& normal = image_.normals[index];
+    const auto rayAt = [&](int c, int r)
+    {
+      return image_.camera.ray(static_cast<float>(view_.left + c),
+                               static_cast<float>(view_.top + r));
+    };
+    const float here = normal.dot(rayAt(column, row));
+    const Eigen::Vector3f ray = rayAt(next_column, next_row);
+    const float there = normal.dot(ray);
+    if (!(here < 0 && there < 0)) return false;  // no normal, or none that tells
+    const float expected_m = image_.depth[index] * here / there;
+    return std::abs(image_.depth[next] - expected_m) * ray.norm() < kEvenGates * gate_m_;
   }
 
   /// How far the cloud is behind the part's surface [m]; NaN where one of them is not.

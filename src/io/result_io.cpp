@@ -64,6 +64,7 @@ json toJson(const DetectedPose& pose)
           {"looked_through", pose.looked_through},
           {"outline_broken", pose.outline_broken},
           {"pierced", pose.pierced},
+          {"goes_on", pose.goes_on},
           {"claimed", pose.claimed},
           {"reliability", pose.reliability},
           {"covariance", numbersOf(pose.covariance)}};
@@ -111,6 +112,7 @@ DetectedPose poseFrom(const json& item)
   pose.looked_through = item.value("looked_through", 0.0);
   pose.outline_broken = item.value("outline_broken", 0.0);
   pose.pierced = item.value("pierced", 0.0);
+  pose.goes_on = item.value("goes_on", 0.0);
   pose.claimed = item.value("claimed", 0.0);
   pose.reliability = item.value("reliability", 0.0);
   pose.covariance = covarianceOf(item);

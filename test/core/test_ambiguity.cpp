@@ -66,6 +66,7 @@ TEST_F(AmbiguityTest, aPoseSlidesWhereItsSurfaceGoesOnUnowned)
   openTowards(add(0, 0, 100), 500);
   stand(0);
   EXPECT_DOUBLE_EQ(assess()[0].slide_share, 1.0);
+  EXPECT_EQ(assess()[0].goes_on_px, 1);
 }
 
 TEST_F(AmbiguityTest, trustSpreadsAlongAChainOfPosesThatTouch)
@@ -76,7 +77,10 @@ TEST_F(AmbiguityTest, trustSpreadsAlongAChainOfPosesThatTouch)
   for (const std::size_t i : {0, 1, 2})
     stand(i);
   for (const Ambiguity& ambiguity : assess())
+  {
     EXPECT_DOUBLE_EQ(ambiguity.slide_share, 0.0);
+    EXPECT_EQ(ambiguity.goes_on_px, 0) << "the surface beyond is a neighbour's";
+  }
 }
 
 TEST_F(AmbiguityTest, posesThatOnlyHoldEachOtherAreNotHeld)
@@ -86,7 +90,10 @@ TEST_F(AmbiguityTest, posesThatOnlyHoldEachOtherAreNotHeld)
   stand(0);
   stand(1);
   for (const Ambiguity& ambiguity : assess())
+  {
     EXPECT_DOUBLE_EQ(ambiguity.slide_share, 1.0);
+    EXPECT_EQ(ambiguity.goes_on_px, 1);
+  }
 }
 
 TEST_F(AmbiguityTest, theWorstDirectionCounts)
@@ -107,6 +114,15 @@ TEST_F(AmbiguityTest, theMarginIsTheLeadOverTheBestRivalPerPixel)
   add(0.03, 10, 60);  // fewer
   stand(0);
   EXPECT_NEAR(assess()[0].margin, 0.3, 1e-9);
+}
+
+TEST_F(AmbiguityTest, whatAPoseGainedByClimbingIsNoLead)
+{
+  add(0, 0, 100);
+  add(0.03, 0, 70);
+  stand(0);
+  candidates_[0].climbed = 20;
+  EXPECT_NEAR(assess()[0].margin, 0.1, 1e-9);
 }
 
 TEST_F(AmbiguityTest, whatIsHiddenOrMissingOfARivalIsNoLead)

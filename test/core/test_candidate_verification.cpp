@@ -85,6 +85,39 @@ TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsTh
   EXPECT_TRUE(left_at(-2, 1).empty());
 }
 
+TEST_F(VerifiedCandidates, climbWhereTheyStandAndTheCloudSaysLittleForThem)
+{
+  const Eigen::Isometry3d beside = Eigen::Translation3d(0, -0.004, 0) * true_pose_;
+  add(true_pose_, 3);
+  add(beside, 2);
+  add(beside, 1);
+  for (Candidate& candidate : candidates_)
+    candidate.evidence = gatherEvidence(image_, model_, candidate.T_camera_model, config_);
+  climbStanding(image_, {&model_}, config_, {{0, 0, 0}, {1, 0, 0}}, candidates_);
+  EXPECT_EQ(candidates_[0].T_camera_model.matrix(), true_pose_.cast<float>().matrix());
+  EXPECT_EQ(candidates_[0].climbed, 0);
+  EXPECT_NE(candidates_[1].T_camera_model.matrix(), beside.cast<float>().matrix());
+  EXPECT_GT(candidates_[1].climbed, 0);
+  EXPECT_EQ(candidates_[2].T_camera_model.matrix(), beside.cast<float>().matrix())
+      << "does not stand";
+}
+
+TEST_F(VerifiedCandidates, doNotClimbOutOfALargerSurfaceThatTheyLieIn)
+{
+  // Parallel to the wall, and tilted into it so that its surface passes through the part.
+  for (const double tilt_rad : {0.0, 0.1})
+  {
+    const Eigen::Isometry3d within =
+        poseOf(M_PI + tilt_rad, {1, 0, 0}, {0.09, 0, 0.6}) * poseOf(0.3, {0, 0, 1}, {0, 0, 0});
+    candidates_.clear();
+    add(within, 1);
+    Candidate& candidate = candidates_.front();
+    candidate.evidence = gatherEvidence(image_, model_, candidate.T_camera_model, config_);
+    climbStanding(image_, {&model_}, config_, {{0, 0, 0}}, candidates_);
+    EXPECT_EQ(candidate.T_camera_model.matrix(), within.cast<float>().matrix()) << tilt_rad;
+  }
+}
+
 TEST_F(VerifiedCandidates, stayAsTheyAreOnceTheDeadlineHasPassed)
 {
   add(before_all_, 2);

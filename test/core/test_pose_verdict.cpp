@@ -54,7 +54,7 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
        "max_slide_share"},
       {[](DetectedPose& pose) { pose.outline_broken = 0.8; }, UnreliableReason::kLowScore,
        "max_outline_broken"},
-      {[](DetectedPose& pose) { pose.pierced = 0.3; }, UnreliableReason::kLowScore, "max_pierced"},
+      {[](DetectedPose& pose) { pose.pierced = 0.35; }, UnreliableReason::kLowScore, "max_pierced"},
       {[](DetectedPose& pose) { pose.margin = 0; }, UnreliableReason::kRunnerUp, "min_margin"},
       {[](DetectedPose& pose) { pose.margin = -0.1; }, UnreliableReason::kRunnerUp,
        "better, with 10 % more evidence"},
@@ -97,7 +97,7 @@ TEST_F(VerdictTest, toleratesAsManyBrokenEdgesAsItIsTold)
 TEST_F(VerdictTest, toleratesWhatPassesThroughAsFarAsItIsTold)
 {
   config_.max_pierced = 0.4;
-  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.pierced = 0.3; });
+  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.pierced = 0.35; });
   EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
 }
 

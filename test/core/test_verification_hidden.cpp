@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace ppf_bin_picking
 {
 namespace
@@ -66,6 +68,26 @@ TEST_F(HiddenPlate, isPiercedByASurfaceThatPassesThroughIt)
     EXPECT_GT(evidence.pierced, 50) << tilt_rad;
     EXPECT_LT(evidence.stepped, 0.1 * evidence.pierced) << tilt_rad;
   }
+}
+
+TEST_F(HiddenPlate, isPiercedInAnImageSoCoarseThatASlopeRisesByAStepFromPixelToPixel)
+{
+  RangeImage image;
+  image.camera = {106, 80, 200, 200, 52.5F, 39.5F};  // 3 mm a pixel, a depth gate is 2 mm
+  image.in_roi.assign(static_cast<std::size_t>(image.camera.width) * image.camera.height, 1);
+  const auto evidenceIn = [&](const std::vector<PlacedMesh>& scene)
+  {
+    image.depth = renderDepth(scene, image.camera);
+    estimateImageNormals(image, 2, 3 * kNormalGate_m, 1);
+    return gatherEvidence(image, plate_, T_camera_plate_.cast<float>(), DetectorConfig());
+  };
+  const PoseEvidence pierced = evidenceIn({wall(0.8), sheet(0.1F, 0.5, 0, 0.6)});
+  EXPECT_GT(pierced.pierced, 15);
+  EXPECT_LT(pierced.stepped, 0.1 * pierced.pierced);
+  const PoseEvidence covered =
+      evidenceIn({wall(0.8), {mesh_, T_camera_plate_}, sheet(0.02F, 0, 0.03, 0.57)});
+  EXPECT_GT(covered.stepped, 15);
+  EXPECT_EQ(covered.pierced, 0);
 }
 }  // namespace
 }  // namespace ppf_bin_picking

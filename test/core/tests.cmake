@@ -7,6 +7,7 @@ set(core_tests
     test_dbscan
     test_detector
     test_detector_config
+    test_evidence_climb
     test_kernels
     test_look_alikes
     test_mismatch

@@ -17,6 +17,8 @@ struct Ambiguity
 {
   /// Of the outline that would stop the worst slide, the share that does not. [0, 1]
   double slide_share = 0;
+  /// Outline pixels beyond which the measured surface goes on and is not that of another held pose.
+  double goes_on_px = 0;
   /// Lead in evidence over the best other pose that claims the same pixels, relative to the pose's
   /// confirmed pixels. 1 without a rival; below 0 the rival has more.
   double margin = 1;

@@ -26,4 +26,9 @@ std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
                                     const DetectorConfig& config,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<SelectedPose>& selected);
+/// Lets the standing poses that the cloud says little for climb to where it says more, see
+/// climbEvidence(). After it the poses are to be selected anew.
+void climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                   const DetectorConfig& config, const std::vector<SelectedPose>& selected,
+                   std::vector<Candidate>& candidates);
 }  // namespace ppf_bin_picking

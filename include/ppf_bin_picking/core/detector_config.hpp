@@ -63,7 +63,7 @@ struct DetectorConfig
   double max_slide_share = 0.85;
   double firm_hold = 0.07;          ///< From this hold on a pose is not held loosely. >= 0.
   double max_outline_broken = 0.7;  ///< Largest broken share of the edges in sight. [0, 1].
-  double max_pierced = 0.25;     ///< Largest share of these that the cloud passes through. [0, 1].
+  double max_pierced = 0.3;      ///< Largest share of these that the cloud passes through. [0, 1].
   double min_margin = 0.05;      ///< Least lead over the best other pose there. [-1, 1].
   double min_reliability = 0.9;  ///< Least probability that a pose is right. [0, 1].
 
@@ -72,10 +72,11 @@ struct DetectorConfig
   double min_sparse_balance = -0.6;  ///< A quick fit worse than this ends a pose. [-2, 1].
   double min_look_balance = -0.2;    ///< ... or worse than this after the first look. [-2, 1].
   int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
-  double depth_gate_rel = 0.02;      ///< A surface confirms a pose within this distance. > 0.
-  double normal_gate_rad = 0.6;      ///< ... and within this turn of the normal. (0, pi/2].
-  double min_score = 0.5;            ///< Poses scoring less are not reliable. [0, 1].
-  double min_visible_share = 0.2;    ///< Poses showing less of their surface neither. [0, 1].
+  bool climb = true;  ///< Poses that the cloud says little for climb, see evidence_climb.hpp.
+  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
+  double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
+  double min_score = 0.5;          ///< Poses scoring less are not reliable. [0, 1].
+  double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
 
   int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
 
@@ -123,6 +124,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("min_sparse_balance", config.min_sparse_balance);
   visit("min_look_balance", config.min_look_balance);
   visit("icp_iterations", config.icp_iterations);
+  visit("climb", config.climb);
   visit("depth_gate_rel", config.depth_gate_rel);
   visit("normal_gate_rad", config.normal_gate_rad);
   visit("min_score", config.min_score);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -59,6 +60,12 @@ struct PoseEvidence
   double support() const
   {
     return visible_px > 0 ? static_cast<double>(confirmed.size()) / visible_px : 0.0;
+  }
+
+  /// Pixels along the edges in sight that tell something, at least 1.
+  double edgesInSight() const
+  {
+    return std::max(1.0, outline_held + outline_broken + stepped + pierced);
   }
 
   /// Weight of the pixels that nothing in front hides.
