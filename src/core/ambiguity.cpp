@@ -59,6 +59,10 @@ void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& ca
       changed = changed || held[i];
     }
   }
+  for (std::size_t i = 0; i < selected.size();
+       ++i)  // now that it is known which neighbours are held
+    assessOutline(candidates[selected[i].candidate].evidence, static_cast<std::int32_t>(i), owners,
+                  held, ambiguities[i]);
 }
 
 void assessRivals(const std::vector<const PpfModel*>& models, const DetectorConfig& config,

@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/core/sparse_fit.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <iterator>
 #include <numeric>
@@ -164,14 +165,20 @@ std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
   return turned;
 }
 
-void climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                   const DetectorConfig& config, const std::vector<SelectedPose>& selected,
-                   std::vector<Candidate>& candidates)
+bool climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                   const DetectorConfig& config, const Deadline& deadline,
+                   const std::vector<SelectedPose>& selected, std::vector<Candidate>& candidates)
 {
+  std::atomic<bool> all(true);
   const auto climb = [&](std::size_t i)
   {
     Candidate& pose = candidates[selected[i].candidate];
     if (!shouldClimb(pose.evidence)) return;
+    if (deadline.passed())
+    {
+      all = false;
+      return;
+    }
     const double before = seenBalance(pose.evidence, pose.evidence.confirmed_weight);
     Climb climb =
         climbEvidence(image, *models[pose.model], pose.T_camera_model, pose.evidence, config);
@@ -181,5 +188,6 @@ void climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& 
         std::max(0.0, seenBalance(pose.evidence, pose.evidence.confirmed_weight) - before);
   };
   parallelFor(config.threads, selected.size(), climb);
+  return all;
 }
 }  // namespace ppf_bin_picking

@@ -184,13 +184,14 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   work.selected = selectCandidates(candidates, image.depth.size());
   lap("selection");
   addLookAlikes(models, config, deadline, lap, work);
+  bool cut_short = deadline.passed();
   if (config.climb)
   {
-    climbStanding(image, models, config, work.selected, candidates);
+    const bool all = climbStanding(image, models, config, deadline, work.selected, candidates);
+    cut_short = cut_short || !all;
     work.selected = selectCandidates(candidates, image.depth.size());
     lap("climbing");
   }
-  const bool cut_short = deadline.passed();
   reportPoses(models, config, candidates, work.selected, image, result);
   lap("selection");
   setStatus(result, cut_short, config.time_limit_s);

@@ -9,6 +9,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kNotable = 0.05;  // share of the edges that is worth telling
+
 std::string percent(double share)
 {
   return std::to_string(std::lround(100 * share)) + " %";
@@ -30,8 +32,10 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
     case UnreliableReason::kRunnerUp:
       return rivalOf(pose);
     case UnreliableReason::kSlippage:
-      return "the measured surface goes on at " + percent(pose.goes_on) +
-             " of its edges, and what is seen of it hardly keeps it from sliding or turning";
+      return (pose.goes_on > kNotable ? "the measured surface goes on at " + percent(pose.goes_on) +
+                                            " of its edges, and "
+                                      : std::string()) +
+             "what is seen of it hardly keeps it from sliding or turning";
     case UnreliableReason::kSpread:
       return "its hypotheses spread over " + percent(pose.spread) + " of the part's diameter";
     case UnreliableReason::kOverlap:
@@ -62,7 +66,7 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
                 percent(config.max_slide_share) + "), and little else does"};
   if (pose.outline_broken > config.max_outline_broken)
     return {UnreliableReason::kLowScore,
-            "the measured surface goes on at " + percent(pose.outline_broken) +
+            "the measured surface does not end at " + percent(pose.outline_broken) +
                 " of its edges (max_outline_broken " + percent(config.max_outline_broken) +
                 "), so that nothing ends where the part ends"};
   if (pose.pierced > config.max_pierced)

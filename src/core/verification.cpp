@@ -172,13 +172,13 @@ private:
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
     const std::size_t next = image_.index(view_.left + next_column, view_.top + next_row);
     const Eigen::Vector3f& normal = image_.normals[index];
-    const auto rayAt = [&](int c, int r)
+    const auto ray_at = [&](int c, int r)
     {
       return image_.camera.ray(static_cast<float>(view_.left + c),
                                static_cast<float>(view_.top + r));
     };
-    const float here = normal.dot(rayAt(column, row));
-    const Eigen::Vector3f ray = rayAt(next_column, next_row);
+    const float here = normal.dot(ray_at(column, row));
+    const Eigen::Vector3f ray = ray_at(next_column, next_row);
     const float there = normal.dot(ray);
     if (!(here < 0 && there < 0)) return false;  // no normal, or none that tells
     const float expected_m = image_.depth[index] * here / there;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -80,6 +81,23 @@ TEST_F(AmbiguityTest, trustSpreadsAlongAChainOfPosesThatTouch)
   {
     EXPECT_DOUBLE_EQ(ambiguity.slide_share, 0.0);
     EXPECT_EQ(ambiguity.goes_on_px, 0) << "the surface beyond is a neighbour's";
+  }
+}
+
+TEST_F(AmbiguityTest, isTheSameInWhateverOrderThePosesWereTaken)
+{
+  Candidate& first = add(0.0, 0, 100);  // held as it is, and touches the next
+  openTowards(first, 150);
+  addSlideStop({1, 0}, first.evidence.slide_held);
+  addSlideStop({1, 0}, add(0.1, 100, 100).evidence.slide_held);
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 0}})
+  {
+    selected_.clear();
+    stand(a);
+    stand(b);
+    const Ambiguity touching = assess()[a == 0 ? 0 : 1];
+    EXPECT_EQ(touching.goes_on_px, 0) << a;
+    EXPECT_DOUBLE_EQ(touching.slide_share, 0.0) << a;
   }
 }
 

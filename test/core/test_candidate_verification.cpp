@@ -93,7 +93,13 @@ TEST_F(VerifiedCandidates, climbWhereTheyStandAndTheCloudSaysLittleForThem)
   add(beside, 1);
   for (Candidate& candidate : candidates_)
     candidate.evidence = gatherEvidence(image_, model_, candidate.T_camera_model, config_);
-  climbStanding(image_, {&model_}, config_, {{0, 0, 0}, {1, 0, 0}}, candidates_);
+  const std::vector<SelectedPose> standing = {{0, 0, 0}, {1, 0, 0}};
+  const std::atomic<bool> stop(true);
+  EXPECT_FALSE(
+      climbStanding(image_, {&model_}, config_, Deadline(0, &stop), standing, candidates_));
+  EXPECT_EQ(candidates_[1].T_camera_model.matrix(), beside.cast<float>().matrix())
+      << "the deadline has passed";
+  EXPECT_TRUE(climbStanding(image_, {&model_}, config_, Deadline(), standing, candidates_));
   EXPECT_EQ(candidates_[0].T_camera_model.matrix(), true_pose_.cast<float>().matrix());
   EXPECT_EQ(candidates_[0].climbed, 0);
   EXPECT_NE(candidates_[1].T_camera_model.matrix(), beside.cast<float>().matrix());
@@ -113,7 +119,7 @@ TEST_F(VerifiedCandidates, doNotClimbOutOfALargerSurfaceThatTheyLieIn)
     add(within, 1);
     Candidate& candidate = candidates_.front();
     candidate.evidence = gatherEvidence(image_, model_, candidate.T_camera_model, config_);
-    climbStanding(image_, {&model_}, config_, {{0, 0, 0}}, candidates_);
+    climbStanding(image_, {&model_}, config_, Deadline(), {{0, 0, 0}}, candidates_);
     EXPECT_EQ(candidate.T_camera_model.matrix(), within.cast<float>().matrix()) << tilt_rad;
   }
 }

@@ -183,15 +183,22 @@ TEST_P(BracketOnPlane, isFoundAndNotFlaggedWhateverTheClustering)
 
 TEST_P(BracketOnPlane, isTheOnlyReliablePoseWithTheTableInTheRegion)
 {
-  const DetectionResult result = Detector(config_).detect(cloud(), model_);
-  ASSERT_EQ(result.status, DetectionStatus::kOk);
-  EXPECT_EQ(std::count_if(result.poses.begin(), result.poses.end(),
-                          [](const DetectedPose& pose) { return pose.reliable; }),
-            1);
-  expectRight(result.poses.front().T_cloud_model);
-  for (const MismatchingRegion& region : result.regions)
-    EXPECT_GT((region.T_cloud_best.translation() - truth_.translation()).norm(),
-              0.3 * model_.diameter());
+  for (const bool climb : {true, false})
+  {
+    config_.climb = climb;
+    const DetectionResult result = Detector(config_).detect(cloud(), model_);
+    ASSERT_EQ(result.status, DetectionStatus::kOk);
+    EXPECT_EQ(std::count_if(result.poses.begin(), result.poses.end(),
+                            [](const DetectedPose& pose) { return pose.reliable; }),
+              1);
+    expectRight(result.poses.front().T_cloud_model);
+    for (const MismatchingRegion& region : result.regions)
+      EXPECT_GT((region.T_cloud_best.translation() - truth_.translation()).norm(),
+                0.3 * model_.diameter());
+    EXPECT_EQ(std::any_of(result.stages.begin(), result.stages.end(),
+                          [](const StageTime& stage) { return stage.name == "climbing"; }),
+              climb);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, BracketOnPlane, ::testing::Values(0.5, 2.0, 4.0));

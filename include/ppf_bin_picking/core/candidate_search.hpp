@@ -26,8 +26,8 @@ struct Candidate
   Eigen::Isometry3f T_camera_model = Eigen::Isometry3f::Identity();  ///< Mesh frame [m].
   bool verified = false;  ///< False if the time limit came first; the evidence is empty then.
   PoseEvidence evidence;
-  /// What seenBalance() gained by a climb, see climbStanding(). Rivals do not climb, so it is no
-  /// part of a lead.
+  /// What seenBalance() gained by a climb, see climbStanding(). Rivals that do not stand do not
+  /// climb, so it is no part of a lead.
   double climbed = 0;
 };
 

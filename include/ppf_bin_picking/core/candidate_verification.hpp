@@ -26,9 +26,12 @@ std::vector<Candidate> lookAlikesOf(const std::vector<const PpfModel*>& models,
                                     const DetectorConfig& config,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<SelectedPose>& selected);
+
 /// Lets the standing poses that the cloud says little for climb to where it says more, see
-/// climbEvidence(). After it the poses are to be selected anew.
-void climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                   const DetectorConfig& config, const std::vector<SelectedPose>& selected,
-                   std::vector<Candidate>& candidates);
+/// climbEvidence(), unless they lie within a larger surface. Replaces their pose and evidence and
+/// sets `climbed`; after it the poses are to be selected anew.
+/// @return False if the deadline passed first: poses that had not begun stay as they are.
+bool climbStanding(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                   const DetectorConfig& config, const Deadline& deadline,
+                   const std::vector<SelectedPose>& selected, std::vector<Candidate>& candidates);
 }  // namespace ppf_bin_picking

@@ -99,10 +99,8 @@ struct DetectedPose
   /// Of its edges in sight, its outline or where something hides it, the share where the cloud
   /// neither ends nor steps. [0, 1]
   double outline_broken = 0;
-  double pierced = 0;  ///< Of the same edges, the share the cloud passes through. [0, 1]
-  /// Of the same edges, the share beyond which the measured surface goes on, held poses' surfaces
-  /// aside. [0, 1]
-  double goes_on = 0;
+  double pierced = 0;      ///< Of the same edges, the share the cloud passes through. [0, 1]
+  double goes_on = 0;      ///< ... beyond which a surface goes on that is no held pose's. [0, 1]
   double claimed = 0;      ///< Of the surface it expects, the share better poses explain. [0, 1]
   double reliability = 0;  ///< Probability that it is right; see reliability.hpp. [0, 1]
   /// Of x y z rx ry rz [m, rad]: shifts of the mesh's origin and turns about it, along the cloud

@@ -20,8 +20,8 @@ struct Climb
 /// Moves a refined pose, in steps that get smaller, to where evidenceBalance() is larger (pattern
 /// search, Hooke and Jeeves 1961). The refinement follows the measured surface, which shiny parts
 /// give tilted; the balance looks at what is seen of the floor within the part and beyond its edges
-/// as well. Only for poses that the cloud says little for, as it is dear and finds the place in
-/// whole steps.
+/// as well; a step is taken where poseScore() rises, too. Only for poses that the cloud says little
+/// for, as it finds the place in whole steps and draws the part up to 72 times.
 /// @param T_camera_model  Start, mesh frame to camera frame [m].
 /// @param evidence        At the start.
 /// @return Where it ended; the start with its evidence unless the balance rose by a tenth of the

@@ -12,11 +12,11 @@ namespace ppf_bin_picking
 /// A pose on its way through the refinement.
 struct Refinement
 {
-  Eigen::Isometry3f T_camera_model;  ///< Mesh frame [m].
-  int steps = 0;                     ///< Taken so far.
-  float first_gate_m = 0;            ///< Of the surface's measurements.
+  Eigen::Isometry3f T_camera_model = Eigen::Isometry3f::Identity();  ///< Mesh frame [m].
+  int steps = 0;                                                     ///< Taken so far.
+  float first_gate_m = 0;  ///< How far from the surface its measurements may lie in the first step.
   /// What the first look's surface says of the pose where its steps ended, see sampleBalance(); 1
-  /// before it.
+  /// before it, and with no icp_iterations.
   float balance = 1;
   bool done = false;  ///< No look is left, or too little is seen of the part.
 };
