@@ -30,22 +30,14 @@ Directions directionsAt(const Eigen::Isometry3f& T_camera_model, const PpfModel&
   return {sight.cross(along), along, sight};
 }
 
-/// The pose of the k-th trial.
-Eigen::Isometry3f tried(const Eigen::Isometry3f& pose, const Eigen::Vector3f& center,
-                        const Directions& directions, int k, float step_m, float lever_m)
+/// The step of the k-th trial, as moved() takes it.
+Vector6f trialStep(const Directions& directions, int k, float step_m)
 {
-  const Eigen::Vector3f& direction = directions[static_cast<std::size_t>(k / 2 % 3)];
-  const float sign = k % 2 == 0 ? 1.0F : -1.0F;
-  Eigen::Isometry3f moved = pose;
-  if (k < kTrials / 2)
-  {
-    moved.translation() += sign * step_m * direction;
-    return moved;
-  }
-  const Eigen::AngleAxisf turn(sign * step_m / lever_m, direction);
-  moved.linear() = Eigen::Quaternionf(Eigen::Matrix3f(turn * pose.linear())).normalized().matrix();
-  moved.translation() = center + turn * (pose.translation() - center);
-  return moved;
+  const float signed_m = k % 2 == 0 ? step_m : -step_m;
+  Vector6f step = Vector6f::Zero();
+  step.segment<3>(k < kTrials / 2 ? 3 : 0) =
+      signed_m * directions[static_cast<std::size_t>(k / 2 % 3)];
+  return step;
 }
 
 double fullBalance(const PoseEvidence& evidence)
@@ -68,8 +60,8 @@ bool improve(const RangeImage& image, const PpfModel& model, const DetectorConfi
   for (int k = 0; k < kTrials; ++k)
   {
     Climb next;
-    next.T_camera_model = tried(best.T_camera_model, best.T_camera_model * model.data().center,
-                                directions, k, step_m, lever_m);
+    next.T_camera_model = moved(best.T_camera_model, trialStep(directions, k, step_m),
+                                best.T_camera_model * model.data().center, lever_m);
     next.evidence = gatherEvidence(image, model, next.T_camera_model, config);
     if (next.evidence.confirmed_weight < least_confirmed ||
         fullBalance(next.evidence) <= fullBalance(best.evidence) ||

@@ -114,24 +114,6 @@ void addOutline(const RangeImage& image, const VisiblePart& part,
   }
 }
 
-/// Turns and shifts the pose by a step about a centre in the camera frame.
-Eigen::Isometry3f moved(const Eigen::Isometry3f& T_camera_model, const Vector6f& step,
-                        const Eigen::Vector3f& center, float lever_m)
-{
-  const Eigen::Vector3f turn = step.head<3>() / lever_m;
-  const float angle = turn.norm();
-  const Eigen::Matrix3f rotation = angle > 0
-                                       ? Eigen::AngleAxisf(angle, turn / angle).toRotationMatrix()
-                                       : Eigen::Matrix3f::Identity();
-  Eigen::Isometry3f result;
-  const Eigen::Matrix3f turned = rotation * T_camera_model.linear();
-  result.linear() = Eigen::Quaternionf(turned).normalized().toRotationMatrix();
-  result.translation() =
-      center + rotation * (T_camera_model.translation() - center) + step.tail<3>();
-  result.makeAffine();
-  return result;
-}
-
 /// What steps have in common.
 struct Stepper
 {

@@ -24,6 +24,12 @@ constexpr float kLeverRel = 0.35F;
 /// @param direction  Unit length.
 Vector6f motionJacobian(const Eigen::Vector3f& arm, const Eigen::Vector3f& direction);
 
+/// Turns and shifts a pose by a step, as motionJacobian() measures it.
+/// @param step      Turn about the centre, times the lever, and shift, in the camera frame [m].
+/// @param center    Camera frame [m].
+Eigen::Isometry3f moved(const Eigen::Isometry3f& T_camera_model, const Vector6f& step,
+                        const Eigen::Vector3f& center, float lever_m);
+
 /// The turns of a revolution or a sphere, as small motions about the part's centre, unit length.
 std::vector<Vector6f> invisibleMotions(const PpfModel& model,
                                        const Eigen::Isometry3f& T_camera_model);
