@@ -59,8 +59,8 @@ void assessSlides(const DetectorConfig& config, const std::vector<Candidate>& ca
       changed = changed || held[i];
     }
   }
-  for (std::size_t i = 0; i < selected.size();
-       ++i)  // now that it is known which neighbours are held
+  // Once more, now that it is known which neighbours are held.
+  for (std::size_t i = 0; i < selected.size(); ++i)
     assessOutline(candidates[selected[i].candidate].evidence, static_cast<std::int32_t>(i), owners,
                   held, ambiguities[i]);
 }

@@ -152,6 +152,17 @@ void addLookAlikes(const std::vector<const PpfModel*>& models, const DetectorCon
   work.selected = selectCandidates(work.candidates, image.depth.size());
 }
 
+/// Lets standing poses climb, and chooses anew. False if the deadline kept one from it.
+bool climb(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+           const Deadline& deadline, const std::function<void(const char*)>& lap, Work& work)
+{
+  const RangeImage& image = work.prepared.image;
+  const bool all = climbStanding(image, models, config, deadline, work.selected, work.candidates);
+  work.selected = selectCandidates(work.candidates, image.depth.size());
+  lap("climbing");
+  return all;
+}
+
 /// From a cloud that can be worked on to the poses.
 void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& models,
             const DetectorConfig& config, const std::optional<RegionOfInterest>& roi,
@@ -185,13 +196,7 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   lap("selection");
   addLookAlikes(models, config, deadline, lap, work);
   bool cut_short = deadline.passed();
-  if (config.climb)
-  {
-    const bool all = climbStanding(image, models, config, deadline, work.selected, candidates);
-    cut_short = cut_short || !all;
-    work.selected = selectCandidates(candidates, image.depth.size());
-    lap("climbing");
-  }
+  if (config.climb) cut_short = !climb(models, config, deadline, lap, work) || cut_short;
   reportPoses(models, config, candidates, work.selected, image, result);
   lap("selection");
   setStatus(result, cut_short, config.time_limit_s);

@@ -153,16 +153,16 @@ private:
       {
         const float hidden_m = behindAt(column, row);
         if (!(hidden_m < -gate_m_)) continue;
-        bool beside_surface = false, goes_on = false;
+        bool beside_surface = false, passes = false;
         for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
         {
           const float beside_m = behindAt(column + dc, row + dr);
           if (!(std::abs(beside_m) <= gate_m_)) continue;
           beside_surface = true;
-          goes_on = goes_on || beside_m - hidden_m < kPierceGates * gate_m_ ||
-                    isEvenCloud(column + dc, row + dr, column, row);
+          passes = passes || beside_m - hidden_m < kPierceGates * gate_m_ ||
+                   isEvenCloud(column + dc, row + dr, column, row);
         }
-        if (beside_surface) ++(goes_on ? evidence_.pierced : evidence_.stepped);
+        if (beside_surface) ++(passes ? evidence_.pierced : evidence_.stepped);
       }
   }
 
