@@ -47,6 +47,31 @@ use_package()
   export ROS_MASTER_URI
 }
 
+# answer_help MODULE ARGUMENT...: ends with the help of the Python module in this folder if an argument asks for it.
+answer_help()
+{
+  local module=$1 argument
+  shift
+  for argument in "$@"; do
+    if [[ $argument != -h && $argument != --help ]]; then continue; fi
+    python_module "$module" --help || fail "The help needs what scripts/setup installs: run it first."
+    exit
+  done
+}
+
+# run_module MODULE ARGUMENT...: runs the Python module in this folder with the package as it is built.
+run_module()
+{
+  use_package build/devel
+  python_module "$@"
+}
+
+# python_module MODULE ARGUMENT...: runs it with the system's Python.
+python_module()
+{
+  PYTHONPATH="$PWD/scripts:${PYTHONPATH:-}" /usr/bin/python3 -m "$@"
+}
+
 # run_demo ARGUMENT...: launches the demo of the package in use. roslaunch hides how its processes ended,
 # so its output tells.
 run_demo()

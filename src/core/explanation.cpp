@@ -2,6 +2,7 @@
 
 #include "ppf_bin_picking/core/pose_information.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
+#include "ppf_bin_picking/core/sparse_fit.hpp"
 
 #include <algorithm>
 
@@ -105,16 +106,19 @@ void findOwner(const RangeImage& image, const PpfModel& model, const DetectorCon
   explanation.owned_share = most / std::max(1e-9, explanation.evidence.confirmed_weight);
 }
 
-PoseFate fateOf(const PoseExplanation& explanation)
+PoseFate fateOf(const PoseExplanation& explanation, const DetectorConfig& config)
 {
   if (explanation.rank >= 0)
     return explanation.result.poses[static_cast<std::size_t>(explanation.rank)].reliable
                ? PoseFate::kReliable
                : PoseFate::kNotReliable;
   if (explanation.candidates > 0) return PoseFate::kNotSelected;
-  return explanation.surface.hypotheses + explanation.boundary.hypotheses > 0
-             ? PoseFate::kNoCandidate
-             : PoseFate::kNoVotes;
+  if (explanation.surface.hypotheses + explanation.boundary.hypotheses == 0)
+    return PoseFate::kNoVotes;
+  return explanation.quick_balance < config.min_sparse_balance ||
+                 explanation.look_balance < config.min_look_balance
+             ? PoseFate::kContradicted
+             : PoseFate::kNoCandidate;
 }
 }  // namespace
 
@@ -137,6 +141,10 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   explanation.score = poseScore(explanation.evidence, confirmed);
   explanation.balance = evidenceBalance(explanation.evidence, confirmed);
   explanation.hold = gatherInformation(image, model, pose, config).hold(model, pose);
+  explanation.quick_balance = fitSparsely(image, model, pose, config).balance;
+  Refinement refinement{pose};
+  refineByOneLook(image, model, config, refinement);
+  explanation.look_balance = refinement.balance;
   const Eigen::Isometry3f refined = refinePose(image, model, pose, config);
   explanation.refined_shift_m = at.shiftTo(refined);
   explanation.refined_turn_rad = at.turnTo(refined);
@@ -144,7 +152,7 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   explanation.refined_score = poseScore(after, after.confirmed_weight);
   explanation.rank = nearestRank(at, explanation.result);
   findOwner(image, model, config, candidates, selected, explanation);
-  explanation.fate = fateOf(explanation);
+  explanation.fate = fateOf(explanation, config);
   return explanation;
 }
 }  // namespace ppf_bin_picking

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ppf_bin_picking
 {
@@ -24,6 +25,15 @@ bool covered(const RenderedPart& view, int column, int row)
 {
   return column >= 0 && row >= 0 && column < view.width && row < view.height &&
          view.depthAt(column, row) > 0;
+}
+
+/// The depth nearest to a place in the image [m]; NaN on its rim and beyond.
+float depthNear(const RangeImage& image, const Eigen::Vector2f& at)
+{
+  if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
+        at.y() < static_cast<float>(image.camera.height - 1)))
+    return std::numeric_limits<float>::quiet_NaN();
+  return image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
 }
 
 /// How much deeper the surface at a pixel gets over one pixel, at most [m].
@@ -136,12 +146,8 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
   float last_z = 0;
   for (int t = -reach_px; t <= reach_px; ++t)
   {
-    const Eigen::Vector2f at = pixel + static_cast<float>(t) * outline.direction;
-    if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
-          at.y() < static_cast<float>(image.camera.height - 1)))
-      return {};
-    const float z =
-        image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
+    const float z = depthNear(image, pixel + static_cast<float>(t) * outline.direction);
+    if (std::isnan(z)) return {};
     const float expected_m =
         point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     const float behind_m = z - expected_m;

@@ -152,8 +152,14 @@ void sortResult(DetectionResult& result)
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
-                         const std::vector<bool>& has_pose, DetectionResult& result)
+                         const std::vector<SelectedPose>& selected, DetectionResult& result)
 {
+  std::vector<bool> has_pose(result.clusters.size(), false);
+  for (const SelectedPose& standing : selected)
+  {
+    const std::int32_t cluster = candidates[standing.candidate].cluster;
+    if (cluster >= 0) has_pose[static_cast<std::size_t>(cluster)] = true;
+  }
   for (std::size_t c = 0; c < result.clusters.size(); ++c)
   {
     const HypothesisCluster& cluster = result.clusters[c];
@@ -185,12 +191,6 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
                  const std::vector<SelectedPose>& selected, const RangeImage& image,
                  DetectionResult& result)
 {
-  std::vector<bool> has_pose(result.clusters.size(), false);
-  for (const SelectedPose& standing : selected)
-  {
-    const std::int32_t cluster = candidates[standing.candidate].cluster;
-    if (cluster >= 0) has_pose[static_cast<std::size_t>(cluster)] = true;
-  }
   const std::vector<ClusterShare> shares = sharesOf(models, candidates, selected, result);
   const std::vector<Ambiguity> ambiguities =
       assessAmbiguity(models, config, candidates, selected, image.depth.size());
@@ -221,7 +221,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   }
   settle(image, models, config, result.poses);
   addCovariances(image, models, config, result.poses);
-  if (config.mismatch_test) addDesertedClusters(models, config, candidates, has_pose, result);
+  if (config.mismatch_test) addDesertedClusters(models, config, candidates, selected, result);
   sortResult(result);
 }
 }  // namespace ppf_bin_picking

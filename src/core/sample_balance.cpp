@@ -7,7 +7,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr float kMinFacing = 0.25F;     // surfaces flatter to the line of sight are left out
 constexpr float kLookedThrough = 2.0F;  // weights of contradictions
 constexpr float kWrongNormal = 1.0F;
 constexpr float kMissing = 0.4F;
@@ -29,6 +28,12 @@ float balanceOf(const RangeImage& image, const Eigen::Vector3f& point,
 }
 }  // namespace
 
+bool facesCamera(const Eigen::Vector3f& point, const Eigen::Vector3f& normal)
+{
+  constexpr float kMinFacing = 0.25F;  // surfaces flatter to the line of sight are left out
+  return -normal.dot(point) > kMinFacing * point.norm();
+}
+
 float sampleBalance(const RangeImage& image, const PointArrays& samples,
                     const Eigen::Isometry3f& T_camera_samples, float gate_m,
                     const DetectorConfig& config)
@@ -41,7 +46,7 @@ float sampleBalance(const RangeImage& image, const PointArrays& samples,
         T_camera_samples * Eigen::Vector3f(samples.x[i], samples.y[i], samples.z[i]);
     const Eigen::Vector3f normal =
         T_camera_samples.linear() * Eigen::Vector3f(samples.nx[i], samples.ny[i], samples.nz[i]);
-    if (-normal.dot(point) <= kMinFacing * point.norm()) continue;
+    if (!facesCamera(point, normal)) continue;
     count += 1;
     balance += balanceOf(image, point, normal, gate_m, min_normal_cosine);
   }

@@ -19,7 +19,6 @@ constexpr std::size_t kSamples = 200;   // facing the camera, about
 constexpr float kFirstGateRel = 0.10F;  // of the diameter
 constexpr float kLastGateRel = 0.03F;   // of the diameter
 constexpr float kMinNormalCosine = 0.7F;
-constexpr float kMinFacing = 0.25F;  // surfaces flatter to the line of sight are left out
 // Of the mean of the diagonal. Strong, as without the outline nothing else keeps different poses
 // from sliding along their faces into one.
 constexpr float kDamping = 0.1F;
@@ -47,8 +46,8 @@ PointArrays facingSamples(const PpfModelData& model, const CenteredPose& pose)
   const std::size_t stride = std::max<std::size_t>(1, model.points.size() / (3 * kSamples));
   for (std::size_t i = 0; i < model.points.size(); i += stride)
   {
-    const Eigen::Vector3f p = pose.rotation * model.points[i] + pose.center;
-    if (-p.dot(pose.rotation * model.normals[i]) > kMinFacing * p.norm())
+    const Eigen::Vector3f point = pose.rotation * model.points[i] + pose.center;
+    if (facesCamera(point, pose.rotation * model.normals[i]))
       samples.add(model.points[i].data(), model.normals[i].data());
   }
   return samples;

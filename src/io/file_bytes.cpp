@@ -35,14 +35,20 @@ bool isDevice(const std::string& path)
 
 [[noreturn]] void refuse(const std::string& path)
 {
-  throw InputError((path.empty() ? "a file without a name" : path) +
-                   " cannot be written: check that its folder exists and has room");
+  std::error_code ignored;
+  if (path.empty()) throw InputError("a file without a name cannot be written: give it one");
+  if (fs::is_directory(path, ignored))
+    throw InputError(path + " cannot be written: it is a folder; give the name of a file in it");
+  throw InputError(path + " cannot be written: check that its folder exists and has room");
 }
 }  // namespace
 
 std::string readFile(const std::string& path, std::size_t max_bytes)
 {
   std::error_code error;
+  if (path.empty()) throw InputError("a file without a name cannot be read: give its path");
+  if (fs::is_directory(path, error))
+    throw InputError(path + " is a folder: give the path of a file");
   if (!fs::exists(path, error)) throw InputError(path + " does not exist: check the path");
   if (!fs::is_regular_file(path, error)) throw InputError(path + " is not a file: check the path");
   const std::uintmax_t size = fs::file_size(path, error);

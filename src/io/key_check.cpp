@@ -10,6 +10,7 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr std::size_t kMaxListedNames = 12;
+constexpr std::size_t kMinBeginning = 4;  // letters that two names have in common
 
 /// Letters to insert, delete, replace or exchange with their neighbour (optimal string alignment).
 std::size_t editDistance(const std::string& a, const std::string& b)
@@ -31,12 +32,20 @@ std::size_t editDistance(const std::string& a, const std::string& b)
   return d[a.size()][b.size()];
 }
 
+/// True if one begins with the other, as `climbing` with `climb`.
+bool isBeginning(const std::string& a, const std::string& b)
+{
+  const std::size_t shorter = std::min(a.size(), b.size());
+  return shorter >= kMinBeginning && a.compare(0, shorter, b, 0, shorter) == 0;
+}
+
 std::string remedyFor(const std::string& key, const std::vector<std::string>& names)
 {
   if (names.empty()) return "remove it";
   const std::string similar = similarName(key, names);
   if (!similar.empty()) return "the nearest known name is '" + similar + "'";
-  if (names.size() > kMaxListedNames) return "no known name is like it";
+  if (names.size() > kMaxListedNames)
+    return "no known name is like it; remove it, or check that this is the file you mean";
   std::string list;
   for (const std::string& name : names)
     list += (list.empty() ? "" : ", ") + name;
@@ -56,7 +65,8 @@ std::string similarName(const std::string& word, const std::vector<std::string>&
 {
   const std::string nearest = nearestName(word, names);
   const std::size_t limit = std::max(word.size(), nearest.size()) / 3;
-  return editDistance(word, nearest) <= limit ? nearest : std::string();
+  if (editDistance(word, nearest) <= limit || isBeginning(word, nearest)) return nearest;
+  return {};
 }
 
 void requireKnownKey(const std::string& where, const std::string& key,

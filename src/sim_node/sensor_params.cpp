@@ -19,8 +19,9 @@ DepthSensor preset(const YamlMap& map)
   }
   catch (const std::invalid_argument& error)
   {
-    throw InputError(map.where() + ": preset: " + error.what() + "; the nearest is '" +
-                     nearestName(name, sensorPresetNames()) + "'");
+    const std::string similar = similarName(name, sensorPresetNames());
+    throw InputError(map.where() + ": preset: " + error.what() +
+                     (similar.empty() ? "" : "; the nearest is '" + similar + "'"));
   }
 }
 }  // namespace

@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/sim/cell_layout.hpp"
 #include "ppf_bin_picking/sim/part_pile.hpp"
 
+#include "cell_params.hpp"
 #include "scene_files.hpp"
 #include "tool_support.hpp"
 
@@ -106,7 +107,8 @@ int main(int argc, char** argv)
   app.add_option("--preset", options.presets,
                  "Sensors: clean, industrial (default), low_cost; one scene each, of the same pile")
       ->check(CLI::IsMember(sensorPresetNames()));
-  app.add_option("--seed", options.seed, "The same seed gives the same scene; default 1");
+  app.add_option("--seed", options.seed, "The same seed gives the same scene; default 1")
+      ->check(CLI::Range(0, CellParams::kMaxSeed));
   app.add_option("--output", options.output,
                  "Data set's folder; scenes go to <output>/<part>/<preset>-<count>-<seed>")
       ->required();

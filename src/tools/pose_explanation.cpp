@@ -81,6 +81,9 @@ std::string verdict(const PoseExplanation& explanation)
     case PoseFate::kNoCandidate:
       return "failed at the choice of candidates: it has votes, but no pose near it was refined, "
              "or refinement led away from it";
+    case PoseFate::kContradicted:
+      return "failed at the first looks: it has votes, but the cloud contradicts it more than it "
+             "confirms it after a quick fit or the first steps of the refinement";
     case PoseFate::kNotSelected:
       return explanation.owned_share > 0.5
                  ? "failed at the competition for pixels: other poses own them"
@@ -139,6 +142,10 @@ std::string explanationText(const PoseExplanation& explanation, const DetectorCo
        << decimal(explanation.evidence.support(), 3) << ", evidence balance "
        << decimal(explanation.balance, 0) << " pixels, hold " << decimal(explanation.hold, 4)
        << "\n"
+       << "first looks:  balance " << decimal(explanation.quick_balance, 2)
+       << " after a quick fit (min_sparse_balance " << config.min_sparse_balance << "), "
+       << decimal(explanation.look_balance, 2) << " after the first look (min_look_balance "
+       << config.min_look_balance << ")\n"
        << "refinement:   moves it by " << decimal(1000 * explanation.refined_shift_m, 2)
        << " mm and " << decimal(180 / M_PI * explanation.refined_turn_rad, 2)
        << " degrees, to score " << decimal(explanation.refined_score, 3) << "\n"

@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/core/candidate_search.hpp"
 #include "ppf_bin_picking/core/dbscan.hpp"
 #include "ppf_bin_picking/core/detector.hpp"
+#include "ppf_bin_picking/core/evidence_climb.hpp"
 #include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/pose_clustering.hpp"
 #include "ppf_bin_picking/core/pose_refinement.hpp"
@@ -160,6 +161,20 @@ void verification(State& state, const Input& input)
   countRate(state, "pixels/s", countPixels(input.pile.image, input.part.model, input.pile.true_T));
 }
 
+/// Climbs from poses that are off: of poses that hold, few climb.
+void climbing(State& state, const Input& input)
+{
+  const auto& [part, pile] = std::tie(input.part, input.pile);
+  std::vector<PoseEvidence> evidence;
+  for (const Eigen::Isometry3f& T_camera_model : pile.shifted_T)
+    evidence.push_back(gatherEvidence(pile.image, part.model, T_camera_model, part.config));
+  for (auto _ : state)
+    for (std::size_t i = 0; i < evidence.size(); ++i)
+      benchmark::DoNotOptimize(
+          climbEvidence(pile.image, part.model, pile.shifted_T[i], evidence[i], part.config));
+  countRate(state, "poses/s", evidence.size());
+}
+
 void selection(State& state, const Input& input)
 {
   const auto& [part, pile] = std::tie(input.part, input.pile);
@@ -216,20 +231,12 @@ void loading(State& state, const Input& input)
 }
 
 using Stage = void (*)(State&, const Input&);
-constexpr std::pair<const char*, Stage> kStages[] = {{"training", training},
-                                                     {"loading", loading},
-                                                     {"preparation", preparation},
-                                                     {"normals", normals},
-                                                     {"sampling", sampling},
-                                                     {"voting", voting},
-                                                     {"clustering", clustering},
-                                                     {"grouping", grouping},
-                                                     {"boundary_voting", boundaryVoting},
-                                                     {"pruning", pruning},
-                                                     {"refinement", refinement},
-                                                     {"verification", verification},
-                                                     {"selection", selection},
-                                                     {"whole", whole}};
+constexpr std::pair<const char*, Stage> kStages[] = {
+    {"training", training},     {"loading", loading},       {"preparation", preparation},
+    {"normals", normals},       {"sampling", sampling},     {"voting", voting},
+    {"clustering", clustering}, {"grouping", grouping},     {"boundary_voting", boundaryVoting},
+    {"pruning", pruning},       {"refinement", refinement}, {"verification", verification},
+    {"selection", selection},   {"climbing", climbing},     {"whole", whole}};
 
 void addBenchmarks()
 {

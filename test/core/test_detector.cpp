@@ -1,42 +1,24 @@
 #include "ppf_bin_picking/core/detector.hpp"
 
+#include "support/bracket_and_angle.hpp"
 #include "support/shapes.hpp"
 #include "support/synthetic.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr float kNoise_m = 0.0002F;
-
-DetectorConfig coarseConfig()
-{
-  DetectorConfig config;
-  config.model.step_rel = 0.1;
-  return config;
-}
-
-/// A bracket and, beside it, an angle on a table; the region begins a little above the table.
-class DetectorTest : public ::testing::Test
+class DetectorTest : public BracketAndAngle
 {
 protected:
-  PointCloud cloud(double turn_rad = 0) const
-  {
-    const Eigen::Isometry3d T_turned = poseOf(turn_rad, {0, 0, 1}, {0, 0, 0});
-    return renderCloud({{squareMesh(0.5F), T_turned * T_camera_table_},
-                        {bracketMesh(), T_turned * T_camera_bracket_},
-                        {angleMesh(), T_turned * T_camera_angle_}},
-                       smallCamera(), kNoise_m);
-  }
-  DetectionResult detect(const DetectorConfig& config) const
-  {
-    return Detector(config).detect(cloud(), bracket_, roi_);
-  }
   /// True if the pose is the bracket's within 0.02 diameters and 2 degrees.
   bool isBracket(const DetectedPose& pose) const
   {
@@ -45,12 +27,6 @@ protected:
            angleBetween(pose.T_cloud_model, T_camera_bracket_) < 2 * M_PI / 180;
   }
 
-  Eigen::Isometry3d T_camera_table_ =
-      poseOf(M_PI, {1, 0, 0}, {0, 0, 0.62}) * poseOf(0.3, {1, 0, 0}, {0, 0, 0});
-  Eigen::Isometry3d T_camera_bracket_ = T_camera_table_ * poseOf(0.7, {0, 0, 1}, {-0.05, 0.01, 0});
-  Eigen::Isometry3d T_camera_angle_ = T_camera_table_ * poseOf(2.5, {0, 0, 1}, {0.07, 0, 0});
-  RegionOfInterest roi_{T_camera_table_, {-0.14, -0.1, 0.004}, {0.14, 0.1, 0.1}};
-  PpfModel bracket_ = PpfModel::train(bracketMesh(), SymmetryGroup(), coarseConfig().model);
   PpfModel angle_ = PpfModel::train(angleMesh(), SymmetryGroup(), coarseConfig().model);
 };
 
@@ -132,6 +108,22 @@ TEST_F(DetectorTest, explainsAWrongPoseByWhatStoppedIt)
   EXPECT_EQ(outside.result.status, DetectionStatus::kRoiEmpty);
 }
 
+TEST_F(DetectorTest, explainsAPoseThatTheFirstLooksGiveUp)
+{
+  DetectorConfig strict = coarseConfig();
+  const auto explained = [&]
+  { return Detector(strict).explain(cloud(), bracket_, roi_, T_camera_bracket_); };
+  strict.min_sparse_balance = 1;
+  const PoseExplanation after_fit = explained();
+  EXPECT_EQ(after_fit.fate, PoseFate::kContradicted);
+  EXPECT_GT(after_fit.quick_balance, coarseConfig().min_sparse_balance);
+  strict.min_sparse_balance = coarseConfig().min_sparse_balance;
+  strict.min_look_balance = 1;
+  const PoseExplanation after_look = explained();
+  EXPECT_EQ(after_look.fate, PoseFate::kContradicted);
+  EXPECT_GT(after_look.look_balance, 0.5);
+}
+
 TEST_F(DetectorTest, followsATurnOfTheSceneAboutTheLineOfSight)
 {
   for (const double turn_rad : {0.4, M_PI / 2, 3.0})
@@ -194,59 +186,6 @@ TEST_F(DetectorTest, leavesThePoseAloneWithoutTheMismatchTest)
   EXPECT_TRUE(isBracket(result.poses.front()));
 }
 
-TEST_F(DetectorTest, saysThatTheRegionIsEmpty)
-{
-  roi_.min.z() = 0.09;
-  const DetectionResult result = detect(coarseConfig());
-  EXPECT_EQ(result.status, DetectionStatus::kRoiEmpty);
-  EXPECT_EQ(result.roi_points, 0U);
-  EXPECT_TRUE(result.poses.empty());
-  EXPECT_FALSE(result.message.empty());
-}
-
-TEST_F(DetectorTest, refusesACloudWithoutMeasurements)
-{
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  PointCloud nothing = cloud();
-  for (const Eigen::Vector3f& point : {Eigen::Vector3f(kNan, kNan, kNan), Eigen::Vector3f(0, 0, 0),
-                                       Eigen::Vector3f(0.1F, 0.1F, -1)})
-  {
-    nothing.points.assign(nothing.points.size(), point);
-    for (const bool with_roi : {false, true})
-    {
-      const auto roi = with_roi ? std::optional<RegionOfInterest>(roi_) : std::nullopt;
-      const DetectionResult result = Detector(coarseConfig()).detect(nothing, bracket_, roi);
-      EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
-      EXPECT_NE(result.message.find("check the camera"), std::string::npos) << result.message;
-      EXPECT_TRUE(result.poses.empty());
-    }
-  }
-}
-
-TEST_F(DetectorTest, refusesCloudsThatContradictThemselves)
-{
-  DetectorConfig config = coarseConfig();
-  const auto expectRefused = [&](const PointCloud& bad, const std::string& word)
-  {
-    const DetectionResult result = Detector(config).detect(bad, bracket_, roi_);
-    EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
-    EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
-    EXPECT_TRUE(result.poses.empty());
-  };
-  expectRefused(PointCloud(), "no points");
-  PointCloud bad = cloud();
-  --bad.width;
-  expectRefused(bad, "width and height");
-  bad = cloud();
-  bad.normals.resize(3, Eigen::Vector3f::UnitZ());
-  expectRefused(bad, "normals");
-  config.use_cloud_normals = true;
-  expectRefused(cloud(), "use_cloud_normals");
-  config.use_cloud_normals = false;
-  config.max_points = 1000;
-  expectRefused(cloud(), "max_points");
-}
-
 TEST_F(DetectorTest, endsAtTheTimeLimitWithoutWrongPoses)
 {
   DetectorConfig config = coarseConfig();
@@ -297,75 +236,6 @@ TEST_F(DetectorTest, strayPointsChangeNothing)
   sideways.points.emplace_back(1e30F, 1e30F, 1.0F);
   ++ ++sideways.width;
   EXPECT_TRUE(findIn(sideways));
-}
-
-TEST_F(DetectorTest, refusesCloudsThatCannotShowThePart)
-{
-  const auto expectBad = [&](const PointCloud& seen, const std::string& word)
-  {
-    const DetectionResult result = Detector(coarseConfig()).detect(seen, bracket_);
-    EXPECT_EQ(result.status, DetectionStatus::kBadCloud);
-    EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
-    EXPECT_TRUE(result.poses.empty());
-  };
-  PointCloud coarse;  // every 16th pixel of each row and column
-  coarse.width = 20;
-  coarse.height = 15;
-  for (std::size_t v = 0; v < coarse.height; ++v)
-    for (std::size_t u = 0; u < coarse.width; ++u)
-      coarse.points.push_back(cloud().points[16 * v * 320 + 16 * u]);
-  expectBad(coarse, "pixels across");
-  PointCloud millimetres = cloud();
-  for (Eigen::Vector3f& point : millimetres.points)
-    point *= 1000;
-  expectBad(millimetres, "if the cloud is not in metres");
-  PointCloud tiny = cloud();
-  for (Eigen::Vector3f& point : tiny.points)
-    point *= 0.02F;
-  expectBad(tiny, "unit");
-}
-
-TEST_F(DetectorTest, refusesModelsThatDoNotFit)
-{
-  const auto expectRefused =
-      [&](const Detector& detector, const RegionOfInterest& roi, const std::string& word)
-  {
-    try
-    {
-      detector.detect(cloud(), bracket_, roi);
-      FAIL() << "not refused";
-    }
-    catch (const std::invalid_argument& error)
-    {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
-  };
-  DetectorConfig config = coarseConfig();
-  config.model.step_rel = 0.09;
-  expectRefused(Detector(config), roi_, "step_rel");
-  config = coarseConfig();
-  config.model.n_angle = 31;
-  expectRefused(Detector(config), roi_, "n_angle");
-  expectRefused(Detector(coarseConfig()), {T_camera_table_, {0, 0, 0}, {0.02, 0.02, 0.02}}, "unit");
-  EXPECT_THROW(Detector(coarseConfig()).detect(cloud(), std::vector<const PpfModel*>()),
-               std::invalid_argument);
-}
-
-TEST(Detector, refusesAnUnusableConfiguration)
-{
-  DetectorConfig config;
-  config.lambda = 2;
-  config.v_min = 0;
-  try
-  {
-    Detector detector(config);
-    FAIL() << "not refused";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("lambda"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("v_min"), std::string::npos);
-  }
 }
 }  // namespace
 }  // namespace ppf_bin_picking

@@ -1,61 +1,23 @@
-#include "ppf_bin_picking/core/ambiguity.hpp"
 #include "ppf_bin_picking/core/verification.hpp"
 
+#include "support/plate_before_wall.hpp"
 #include "support/shapes.hpp"
 #include "support/synthetic.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numeric>
-#include <vector>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-/// What a perfect sensor sees of a scene: depths and the surfaces' own normals; all in the region.
-RangeImage perfectImage(const std::vector<PlacedMesh>& scene)
-{
-  RangeImage image;
-  image.camera = smallCamera();
-  const std::size_t pixels = static_cast<std::size_t>(image.camera.width) * image.camera.height;
-  image.depth.assign(pixels, 0);
-  image.normals.assign(pixels, Eigen::Vector3f::Zero());
-  image.in_roi.assign(pixels, 1);
-  RenderedPart view;
-  for (const PlacedMesh& placed : scene)
-  {
-    renderPart(RenderableMesh(placed.mesh), placed.T_camera_mesh.cast<float>(), image.camera, view);
-    for (int row = 0; row < view.height; ++row)
-      for (int column = 0; column < view.width; ++column)
-      {
-        const float z = view.depthAt(column, row);
-        const std::size_t i = image.index(view.left + column, view.top + row);
-        if (z == 0 || (image.depth[i] > 0 && image.depth[i] <= z)) continue;
-        image.depth[i] = z;
-        const Eigen::Vector3f& normal =
-            view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
-        const bool away = normal.dot(image.point(view.left + column, view.top + row)) > 0;
-        image.normals[i] = away ? Eigen::Vector3f(-normal) : normal;
-      }
-  }
-  return image;
-}
-
-/// A plate of 80 x 60 x 6 mm that looks at the camera, slanted a little, far before a wall.
-class VerificationTest : public ::testing::Test
+class VerificationTest : public PlateBeforeWall
 {
 protected:
-  RangeImage freeImage() const { return perfectImage({wall(0.8), {mesh_, T_camera_plate_}}); }
-
-  PoseEvidence evidenceIn(const RangeImage& image) const
-  {
-    return gatherEvidence(image, plate_, T_camera_plate_.cast<float>(), config_);
-  }
-
   double scoreIn(const RangeImage& image) const
   {
     const PoseEvidence evidence = evidenceIn(image);
@@ -72,12 +34,7 @@ protected:
 
   double gate_m() const { return config_.depth_gate_rel * plate_.diameter(); }
 
-  DetectorConfig config_;
   const int middle_px_ = 160;
-  const TriangleMesh mesh_ = boxMesh({0.08F, 0.06F, 0.006F});
-  const PpfModel plate_ = coarselyTrained(mesh_);
-  const Eigen::Isometry3d T_camera_plate_ =
-      poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6}) * poseOf(0.1, {1, 2, 0}, {0, 0, 0});
 };
 
 TEST_F(VerificationTest, aPerfectSceneScoresOne)
@@ -252,53 +209,6 @@ TEST_F(VerificationTest, aPartOutsideTheImageHasNoEvidence)
   EXPECT_EQ(evidence.support(), 0);
 }
 
-TEST_F(VerificationTest, aPlateOnALargerPlaneSlidesAndAFreeOneDoesNot)
-{
-  const auto slide_share = [&](const RangeImage& image)
-  {
-    Candidate candidate;
-    candidate.T_camera_model = T_camera_plate_.cast<float>();
-    candidate.evidence = evidenceIn(image);
-    const SelectedPose selected{0, candidate.evidence.confirmed_weight, 0};
-    return assessAmbiguity({&plate_}, config_, {candidate}, {selected}, image.depth.size())[0]
-        .slide_share;
-  };
-  // Its upper face lies in a plane that is larger.
-  const RangeImage flush =
-      perfectImage({{shifted(squareMesh(0.2F), {0, 0, 0.003F}), T_camera_plate_}});
-  const PoseEvidence evidence = evidenceIn(flush);
-  EXPECT_DOUBLE_EQ(evidence.support(), 1.0) << "it fits perfectly";
-  EXPECT_EQ(evidence.outline_held, 0);
-  EXPECT_GT(evidence.goes_on.size(), 200U);
-  EXPECT_DOUBLE_EQ(slide_share(flush), 1.0);
-  EXPECT_DOUBLE_EQ(slide_share(freeImage()), 0.0);
-
-  // A strip as wide as the plate, along x: it slides along the strip alone.
-  TriangleMesh strip = shifted(squareMesh(0.2F), {0, 0, 0.003F});
-  for (Eigen::Vector3f& vertex : strip.vertices)
-    vertex.y() *= 0.03F / 0.2F;
-  const PoseEvidence on_strip = evidenceIn(perfectImage({wall(0.8), {strip, T_camera_plate_}}));
-  EXPECT_GT(on_strip.outline_held, 120);
-  EXPECT_GT(on_strip.goes_on.size(), 80U);
-  for (const PoseEvidence::Continuation& continuation : on_strip.goes_on)
-  {
-    EXPECT_GT(std::abs(continuation.direction.x()), 0.5F);
-    const int u = static_cast<int>(continuation.pixel % 320U);
-    EXPECT_GT(std::abs(static_cast<float>(u) - 159.5F), 38.0F) << "beyond the plate's end";
-    EXPECT_EQ(continuation.direction.x() > 0, u > 160);
-  }
-}
-
-TEST_F(VerificationTest, whereThePartIsAbsentItsOutlineStopsNoSlide)
-{
-  const PoseEvidence evidence = evidenceIn(perfectImage({wall(0.8)}));
-  EXPECT_GT(evidence.outline_broken, 200);
-  EXPECT_EQ(evidence.outline_held, 0);
-  EXPECT_TRUE(evidence.goes_on.empty());
-  EXPECT_EQ(*std::max_element(evidence.slide_held.begin(), evidence.slide_held.end()), 0);
-  EXPECT_GT(*std::min_element(evidence.slide_broken.begin(), evidence.slide_broken.end()), 10);
-}
-
 /// Evidence with some of everything.
 PoseEvidence mixedEvidence()
 {
@@ -369,20 +279,6 @@ TEST(PoseScore, fallsWithContradictionsAloneAndStaysAShare)
   PoseEvidence contested;  // nothing against it but the pixels that a better pose claims
   contested.confirmed_weight = 100;
   EXPECT_DOUBLE_EQ(poseScore(contested, 80), 0.8);
-}
-
-TEST(AddSlideStop, weighsBothWaysAcrossAlike)
-{
-  SlideStops right{}, left{}, diagonal{};
-  addSlideStop({1, 0}, right);
-  addSlideStop({-1, 0}, left);
-  addSlideStop(Eigen::Vector2f(1, 1).normalized(), diagonal);
-  for (std::size_t i = 0; i < right.size(); ++i)
-  {
-    EXPECT_NEAR(right[i], std::pow(std::cos(M_PI * static_cast<double>(i) / 8), 4), 1e-6);
-    EXPECT_NEAR(left[i], right[i], 1e-6);
-    EXPECT_NEAR(diagonal[(i + 2) % 8], right[i], 1e-6) << "the same, turned";
-  }
 }
 }  // namespace
 }  // namespace ppf_bin_picking

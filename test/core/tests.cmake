@@ -7,6 +7,7 @@ set(core_tests
     test_dbscan
     test_detector
     test_detector_config
+    test_detector_refusals
     test_evidence_climb
     test_kernels
     test_look_alikes
@@ -29,6 +30,7 @@ set(core_tests
     test_ppf_matcher
     test_ppf_model
     test_range_image
+    test_range_image_unorganised
     test_reliability
     test_sample_balance
     test_selection
@@ -36,9 +38,11 @@ set(core_tests
     test_sparse_fit
     test_surface_discrepancy
     test_surface_sampling
+    test_surface_sampling_extent
     test_symmetry
     test_symmetry_check
     test_symmetry_search
     test_verification
     test_verification_hidden
-    test_verification_relief)
+    test_verification_relief
+    test_verification_slides)

@@ -68,5 +68,19 @@ TEST(WriteFile, refusesWhatCannotBeWritten)
     EXPECT_THROW(writeFile(path, "bytes"), InputError) << path;
   }
 }
+
+TEST(Files, thatAreFoldersOrHaveNoNameAreNamedWithARemedy)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file(".");
+  EXPECT_EQ(inputError([&] { requireWritable(path); }),
+            path + " cannot be written: it is a folder; give the name of a file in it");
+  EXPECT_EQ(inputError([] { requireWritable(""); }),
+            "a file without a name cannot be written: give it one");
+  EXPECT_EQ(inputError([&] { readFile(path, 10); }),
+            path + " is a folder: give the path of a file");
+  EXPECT_EQ(inputError([] { readFile("", 10); }),
+            "a file without a name cannot be read: give its path");
+}
 }  // namespace
 }  // namespace ppf_bin_picking

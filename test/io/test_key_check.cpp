@@ -29,6 +29,9 @@ TEST(SimilarName, isOneThatCanBeMeant)
   EXPECT_EQ(similarName("unti", names), "unit");  // an exchange of neighbours is one edit
   EXPECT_EQ(similarName("mn_scor", names), "min_score");
   EXPECT_EQ(similarName("units", names), "unit");
+  EXPECT_EQ(similarName("climbing", {"min_score", "climb"}), "climb");
+  EXPECT_EQ(similarName("mind", {"min", "step_rel"}), "min");
+  EXPECT_EQ(similarName("minutes", {"min", "step_rel"}), "");  // three letters begin many words
   EXPECT_EQ(similarName("detector", names), "");
   EXPECT_EQ(similarName("mesh", names), "");
   EXPECT_EQ(similarName("x", names), "");
@@ -57,7 +60,9 @@ TEST(RequireKnownKey, listsFewNamesWhereNoneIsNear)
             "f.yaml: unknown key 'colour': known are mesh, unit");
   EXPECT_EQ(
       inputError([] { requireKnownKey("f.yaml", "colour", std::vector<std::string>(13, "mesh")); }),
-      "f.yaml: unknown key 'colour': no known name is like it");
+      "f.yaml: unknown key 'colour': no known name is like it; remove it, or check that this is "
+      "the file "
+      "you mean");
 }
 }  // namespace
 }  // namespace ppf_bin_picking

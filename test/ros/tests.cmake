@@ -2,6 +2,7 @@
 set(ros_tests
     test_cloud_keeper
     test_conversions
+    test_conversions_pose
     test_debug_clouds
     test_detection_view
     test_frame_lookup

@@ -113,8 +113,8 @@ TEST_F(CommandLine, explainsAPose)
   const Outcome outcome = run("detect_poses", detect({"--explain", "0.1, 0 5.5 0 0 0.2 2"}));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const char* line : {"surface: ", "boundary: ", "candidates: ", "visible: ", "confirmed: ",
-                           "contradicted: ", "missing: ", "outline: ", "score: ", "refinement: ",
-                           "coincides: ", "owner: ", "verdict:      failed at "})
+                           "contradicted: ", "missing: ", "outline: ", "score: ", "first looks: ",
+                           "refinement: ", "coincides: ", "owner: ", "verdict:      failed at "})
     expectHolds(outcome.out, line);
   EXPECT_TRUE(std::filesystem::exists(result_));
 }

@@ -9,7 +9,8 @@ namespace ppf_bin_picking
 /// The name with the smallest edit distance to a word; empty if there are no names.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
-/// nearestName() if it can be meant: at most a third of the letters differ; otherwise empty.
+/// nearestName() if it can be meant: at most a third of the letters differ, or one begins with the
+/// other; otherwise empty.
 std::string similarName(const std::string& word, const std::vector<std::string>& names);
 
 /// @param where  The file or parameter namespace that the key stands in.
