@@ -49,19 +49,30 @@ protected:
 
 TEST_F(VerifiedCandidates, areRefinedAndKeepTheirOrderAndEvidence)
 {
-  for (int i = 0; i < 80; ++i)
-    add(Eigen::Translation3d(0.0001 * i, 0, 0.001) * true_pose_, static_cast<float>(i % 7));
-  const std::vector<float> given = votes();
+  config_.min_sparse_balance = config_.min_look_balance = -2;
+  add(before_all_, 1);
+  add(Eigen::Translation3d(0.0005, 0, 0.001) * true_pose_, 3);
+  add(Eigen::Translation3d(0.05, 0, 0) * before_all_, 2);
   verify(Deadline(0, nullptr));
-  EXPECT_EQ(votes(), given);
+  EXPECT_EQ(votes(), (std::vector<float>{1, 3, 2}));
   for (const Candidate& candidate : candidates_)
-  {
     EXPECT_TRUE(candidate.verified);
-    EXPECT_GT(candidate.evidence.confirmed.size(), 200U);
-    EXPECT_LT(
-        (candidate.T_camera_model.translation() - true_pose_.translation().cast<float>()).norm(),
-        0.002F);
-  }
+  EXPECT_GT(candidates_[1].evidence.confirmed.size(), 200U);
+  EXPECT_LT(
+      (candidates_[1].T_camera_model.translation() - true_pose_.translation().cast<float>()).norm(),
+      0.002F);
+}
+
+TEST_F(VerifiedCandidates, thatComeToOnePoseAreOne)
+{
+  config_.min_sparse_balance = config_.min_look_balance = -2;
+  for (int i = 0; i < 80; ++i)  // more than are refined together
+    add(Eigen::Translation3d(0.00005 * i, 0, 0.001) * true_pose_, i == 50 ? 2.0F : 1.0F);
+  add(before_all_, 1);
+  add(Eigen::Translation3d(0, 0.03 * model_.diameter(), 0) * before_all_, 1);
+  verify(Deadline(0, nullptr));
+  EXPECT_EQ(votes(), (std::vector<float>{2, 1, 1})) << "the best stays, and what is elsewhere";
+  EXPECT_GT(candidates_[0].evidence.confirmed.size(), 200U);
 }
 
 TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsThem)
@@ -73,7 +84,7 @@ TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsTh
     candidates_.clear();
     add(before_all_, 3);
     add(true_pose_, 2);
-    add(before_all_, 1);
+    add(Eigen::Translation3d(0.05, 0, 0) * before_all_, 1);
     verify(Deadline(0, nullptr));
     return votes();
   };
