@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -17,7 +16,7 @@ namespace
 {
 constexpr double kReachedRel = 0.02;   // a candidate nearer than this has come to a look-alike
 constexpr double kReached_rad = 0.05;  // ... and turned by less
-constexpr double kTwinRel = 0.01;      // candidates nearer than this after a look end as one
+constexpr double kTwinRel = 0.01;      // candidates nearer than this after a look mostly end as one
 constexpr double kTwin_rad = 0.03;     // ... and turned by less
 constexpr double kLittle = 0.3;  // balance of evidence, per confirmed pixel, that needs no climb
 constexpr double kStrangeShare = 0.5;  // of the edges, where another surface runs on: no climb
@@ -89,13 +88,16 @@ struct Batch
   std::size_t last;                       ///< One beyond.
 };
 
-/// Gives up those of a batch that their first look took to where another one is, of this batch or
-/// of one before: they would end as one pose.
-void giveUpTwins(const std::vector<const PpfModel*>& models, const Batch& batch,
+/// Gives up those of a batch that their first look took to where an earlier one in the order is, of
+/// this batch after its first look, of those before at the end of their refinement: mostly they
+/// would end as one pose. With one look only, no one is given up.
+void giveUpTwins(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                 const Batch& batch, const std::vector<Refinement>& refinements,
                  const std::vector<Candidate>& candidates, std::vector<std::uint8_t>& given_up)
 {
   for (std::size_t k = batch.first; k < batch.last; ++k)
   {
+    if (refinements[k - batch.first].steps >= config.icp_iterations) continue;
     const Candidate& twin = candidates[batch.order[k]];
     const auto is_there = [&](std::size_t other)
     {
@@ -136,7 +138,7 @@ std::vector<std::size_t> refineBatch(const RangeImage& image,
       look(k);
   };
   parallelFor(config.threads, count, begin);
-  giveUpTwins(models, batch, candidates, given_up);
+  giveUpTwins(models, config, batch, refinements, candidates, given_up);
   parallelFor(config.threads, count, finish);
   std::vector<std::size_t> kept;
   for (std::size_t k = batch.first; k < batch.last; ++k)

@@ -75,6 +75,21 @@ TEST_F(VerifiedCandidates, thatComeToOnePoseAreOne)
   EXPECT_GT(candidates_[0].evidence.confirmed.size(), 200U);
 }
 
+TEST_F(VerifiedCandidates, staySeparateWhereNoLookIsLeftOrTheModelsDiffer)
+{
+  config_.min_sparse_balance = config_.min_look_balance = -2;
+  add(true_pose_, 2);
+  add(true_pose_, 1);
+  config_.icp_iterations = 4;  // one look
+  verify(Deadline(0, nullptr));
+  EXPECT_EQ(votes(), (std::vector<float>{2, 1}));
+  config_.icp_iterations = 12;
+  candidates_[1].model = 1;
+  verifyCandidates(
+      image_, {&model_, &model_}, config_, Deadline(), [](const char*) {}, candidates_);
+  EXPECT_EQ(votes(), (std::vector<float>{2, 1}));
+}
+
 TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsThem)
 {
   const auto left_at = [&](double min_sparse_balance, double min_look_balance)
