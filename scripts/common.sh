@@ -54,7 +54,8 @@ answer_help()
   shift
   for argument in "$@"; do
     if [[ $argument != -h && $argument != --help ]]; then continue; fi
-    python_module "$module" --help || fail "The help needs what scripts/setup installs: run it first."
+    with_scripts /usr/bin/python3 -m "$module" --help 2>/dev/null ||
+      fail "The help needs what scripts/setup installs: run it first."
     exit
   done
 }
@@ -63,13 +64,25 @@ answer_help()
 run_module()
 {
   use_package build/devel
-  python_module "$@"
+  with_scripts exec /usr/bin/python3 -m "$@"
 }
 
-# python_module MODULE ARGUMENT...: runs it with the system's Python.
-python_module()
+# with_scripts COMMAND...: lets Python find the modules in this folder.
+with_scripts()
 {
-  PYTHONPATH="$PWD/scripts:${PYTHONPATH:-}" /usr/bin/python3 -m "$@"
+  export PYTHONPATH="$PWD/scripts:${PYTHONPATH:-}"
+  "$@"
+}
+
+# answer_header ARGUMENT...: ends with the comment at the script's head if an argument asks for help.
+answer_header()
+{
+  local argument
+  for argument in "$@"; do
+    if [[ $argument != -h && $argument != --help ]]; then continue; fi
+    sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")"
+    exit
+  done
 }
 
 # run_demo ARGUMENT...: launches the demo of the package in use. roslaunch hides how its processes ended,

@@ -117,7 +117,7 @@ PoseFate fateOf(const PoseExplanation& explanation, const DetectorConfig& config
     return PoseFate::kNoVotes;
   return explanation.quick_balance < config.min_sparse_balance ||
                  explanation.look_balance < config.min_look_balance
-             ? PoseFate::kContradicted
+             ? PoseFate::kGivenUp
              : PoseFate::kNoCandidate;
 }
 }  // namespace
@@ -145,7 +145,9 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   Refinement refinement{pose};
   refineByOneLook(image, model, config, refinement);
   explanation.look_balance = refinement.balance;
-  const Eigen::Isometry3f refined = refinePose(image, model, pose, config);
+  while (!refinement.done)
+    refineByOneLook(image, model, config, refinement);
+  const Eigen::Isometry3f& refined = refinement.T_camera_model;
   explanation.refined_shift_m = at.shiftTo(refined);
   explanation.refined_turn_rad = at.turnTo(refined);
   const PoseEvidence after = gatherEvidence(image, model, refined, config);

@@ -32,11 +32,16 @@ std::size_t editDistance(const std::string& a, const std::string& b)
   return d[a.size()][b.size()];
 }
 
-/// True if one begins with the other, as `climbing` with `climb`.
-bool isBeginning(const std::string& a, const std::string& b)
+/// The first name that begins with a word, or with which the word begins; empty if there is none.
+std::string nameBegunBy(const std::string& word, const std::vector<std::string>& names)
 {
-  const std::size_t shorter = std::min(a.size(), b.size());
-  return shorter >= kMinBeginning && a.compare(0, shorter, b, 0, shorter) == 0;
+  const auto is_begun = [&](const std::string& name)
+  {
+    const std::size_t shorter = std::min(word.size(), name.size());
+    return shorter >= kMinBeginning && word.compare(0, shorter, name, 0, shorter) == 0;
+  };
+  const auto found = std::find_if(names.begin(), names.end(), is_begun);
+  return found == names.end() ? std::string() : *found;
 }
 
 std::string remedyFor(const std::string& key, const std::vector<std::string>& names)
@@ -65,8 +70,7 @@ std::string similarName(const std::string& word, const std::vector<std::string>&
 {
   const std::string nearest = nearestName(word, names);
   const std::size_t limit = std::max(word.size(), nearest.size()) / 3;
-  if (editDistance(word, nearest) <= limit || isBeginning(word, nearest)) return nearest;
-  return {};
+  return editDistance(word, nearest) <= limit ? nearest : nameBegunBy(word, names);
 }
 
 void requireKnownKey(const std::string& where, const std::string& key,

@@ -3,6 +3,7 @@
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/part_io.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
+#include "ppf_bin_picking/sim/depth_sensor.hpp"
 
 #include "cell_messages.hpp"
 #include "tool_support.hpp"
@@ -112,7 +113,8 @@ int main(int argc, char** argv)
   app.add_option("--seed", options.seed, "Seed, instead of the configuration's")
       ->check(CLI::Range(0, ppf_bin_picking::CellParams::kMaxSeed));
   app.add_option("--preset", options.preset,
-                 "Preset of the sensor, instead of the configuration's");
+                 "Sensor instead of the configuration's: clean, industrial, low_cost")
+      ->check(CLI::IsMember(ppf_bin_picking::sensorPresetNames()));
   app.add_option("--shots", options.shots, "Shots of the same pile, each with its own noise")
       ->check(CLI::Range(1, ppf_bin_picking_ros::kMaxShots));
   app.add_option("--output", options.output, "Bag to write, .bag")->required();

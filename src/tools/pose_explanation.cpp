@@ -79,11 +79,13 @@ std::string verdict(const PoseExplanation& explanation)
     case PoseFate::kNoVotes:
       return "failed at voting: no hypothesis is near it";
     case PoseFate::kNoCandidate:
+      if (result.status == DetectionStatus::kTimeLimit)
+        return "not known: the time limit came first; raise time_limit_s";
       return "failed at the choice of candidates: it has votes, but no pose near it was refined, "
              "or refinement led away from it";
-    case PoseFate::kContradicted:
-      return "failed at the first looks: it has votes, but the cloud contradicts it more than it "
-             "confirms it after a quick fit or the first steps of the refinement";
+    case PoseFate::kGivenUp:
+      return "failed at the choice of candidates or the first looks: it has votes, but a candidate "
+             "here is given up, as the first looks say too little for it";
     case PoseFate::kNotSelected:
       return explanation.owned_share > 0.5
                  ? "failed at the competition for pixels: other poses own them"
@@ -144,8 +146,8 @@ std::string explanationText(const PoseExplanation& explanation, const DetectorCo
        << "\n"
        << "first looks:  balance " << decimal(explanation.quick_balance, 2)
        << " after a quick fit (min_sparse_balance " << config.min_sparse_balance << "), "
-       << decimal(explanation.look_balance, 2) << " after the first look (min_look_balance "
-       << config.min_look_balance << ")\n"
+       << (config.icp_iterations > 0 ? decimal(explanation.look_balance, 2) : "none")
+       << " after the first look (min_look_balance " << config.min_look_balance << ")\n"
        << "refinement:   moves it by " << decimal(1000 * explanation.refined_shift_m, 2)
        << " mm and " << decimal(180 / M_PI * explanation.refined_turn_rad, 2)
        << " degrees, to score " << decimal(explanation.refined_score, 3) << "\n"

@@ -50,17 +50,24 @@ protected:
 TEST_F(VerifiedCandidates, areRefinedAndKeepTheirOrderAndEvidence)
 {
   config_.min_sparse_balance = config_.min_look_balance = -2;
-  add(before_all_, 1);
-  add(Eigen::Translation3d(0.0005, 0, 0.001) * true_pose_, 3);
-  add(Eigen::Translation3d(0.05, 0, 0) * before_all_, 2);
+  for (int i = 0; i < 80; ++i)  // more than are refined together
+    add(poseOf(0.005 * i, {0, 0, 1}, {0.004 * (i % 9 - 4), 0.004 * (i / 9 - 4), -0.2}) * true_pose_,
+        static_cast<float>(i % 7));
+  candidates_[37].T_camera_model =
+      (Eigen::Translation3d(0.0005, 0, 0.001) * true_pose_).cast<float>();
+  const std::vector<float> given = votes();
   verify(Deadline(0, nullptr));
-  EXPECT_EQ(votes(), (std::vector<float>{1, 3, 2}));
+  EXPECT_EQ(votes(), given);
   for (const Candidate& candidate : candidates_)
+  {
     EXPECT_TRUE(candidate.verified);
-  EXPECT_GT(candidates_[1].evidence.confirmed.size(), 200U);
-  EXPECT_LT(
-      (candidates_[1].T_camera_model.translation() - true_pose_.translation().cast<float>()).norm(),
-      0.002F);
+    EXPECT_EQ(candidate.evidence.confirmed.size(),
+              gatherEvidence(image_, model_, candidate.T_camera_model, config_).confirmed.size());
+  }
+  EXPECT_GT(candidates_[37].evidence.confirmed.size(), 200U);
+  EXPECT_LT((candidates_[37].T_camera_model.translation() - true_pose_.translation().cast<float>())
+                .norm(),
+            0.002F);
 }
 
 TEST_F(VerifiedCandidates, thatComeToOnePoseAreOne)

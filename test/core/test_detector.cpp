@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -115,13 +116,35 @@ TEST_F(DetectorTest, explainsAPoseThatTheFirstLooksGiveUp)
   { return Detector(strict).explain(cloud(), bracket_, roi_, T_camera_bracket_); };
   strict.min_sparse_balance = 1;
   const PoseExplanation after_fit = explained();
-  EXPECT_EQ(after_fit.fate, PoseFate::kContradicted);
+  EXPECT_EQ(after_fit.fate, PoseFate::kGivenUp);
   EXPECT_GT(after_fit.quick_balance, coarseConfig().min_sparse_balance);
   strict.min_sparse_balance = coarseConfig().min_sparse_balance;
   strict.min_look_balance = 1;
   const PoseExplanation after_look = explained();
-  EXPECT_EQ(after_look.fate, PoseFate::kContradicted);
+  EXPECT_EQ(after_look.fate, PoseFate::kGivenUp);
   EXPECT_GT(after_look.look_balance, 0.5);
+}
+
+TEST_F(DetectorTest, explainsAPoseThatOthersWithMoreVotesKeptOut)
+{
+  DetectorConfig few = coarseConfig();
+  few.max_candidates = 1;
+  few.min_sparse_balance = few.min_look_balance = -2;
+  const DetectionResult result = detect(few);
+  ASSERT_FALSE(result.distribution.empty());
+  const Eigen::Vector3f here = T_camera_bracket_.cast<float>() * bracket_.data().center;
+  const PoseHypothesis& far =
+      *std::max_element(result.distribution.begin(), result.distribution.end(),
+                        [&](const auto& a, const auto& b)
+                        { return (a.center - here).norm() < (b.center - here).norm(); });
+  Eigen::Isometry3d T_camera_far = Eigen::Isometry3d::Identity();
+  T_camera_far.linear() = far.rotation.cast<double>().toRotationMatrix();
+  T_camera_far.translation() =
+      far.center.cast<double>() - T_camera_far.linear() * bracket_.data().center.cast<double>();
+  const auto fate_at = [&](const Eigen::Isometry3d& T_camera_model)
+  { return Detector(few).explain(cloud(), bracket_, roi_, T_camera_model).fate; };
+  EXPECT_EQ(fate_at(T_camera_bracket_), PoseFate::kReliable);
+  EXPECT_EQ(fate_at(T_camera_far), PoseFate::kNoCandidate);
 }
 
 TEST_F(DetectorTest, followsATurnOfTheSceneAboutTheLineOfSight)

@@ -30,6 +30,8 @@ TEST(SimilarName, isOneThatCanBeMeant)
   EXPECT_EQ(similarName("mn_scor", names), "min_score");
   EXPECT_EQ(similarName("units", names), "unit");
   EXPECT_EQ(similarName("climbing", {"min_score", "climb"}), "climb");
+  EXPECT_EQ(similarName("max_slide", {"minpts", "v_min", "max_slide_share"}), "max_slide_share");
+  EXPECT_EQ(similarName("time", {"climb", "time_limit_s"}), "time_limit_s");
   EXPECT_EQ(similarName("mind", {"min", "step_rel"}), "min");
   EXPECT_EQ(similarName("minutes", {"min", "step_rel"}), "");  // three letters begin many words
   EXPECT_EQ(similarName("detector", names), "");
@@ -60,9 +62,8 @@ TEST(RequireKnownKey, listsFewNamesWhereNoneIsNear)
             "f.yaml: unknown key 'colour': known are mesh, unit");
   EXPECT_EQ(
       inputError([] { requireKnownKey("f.yaml", "colour", std::vector<std::string>(13, "mesh")); }),
-      "f.yaml: unknown key 'colour': no known name is like it; remove it, or check that this is "
-      "the file "
-      "you mean");
+      "f.yaml: unknown key 'colour': no known name is like it; remove it, or check that "
+      "this is the file you mean");
 }
 }  // namespace
 }  // namespace ppf_bin_picking

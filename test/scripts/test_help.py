@@ -19,6 +19,15 @@ class Help(unittest.TestCase):
                     )
                     self.assertEqual(shown.stdout.split()[:2], ["usage:", f"scripts/{script.name}"])
 
+    def test_of_the_others_is_their_head(self):
+        for name in ("demo", "test", "setup", "screenshot"):
+            with self.subTest(script=name):
+                shown = subprocess.run(
+                    [SCRIPTS / name, "--help"], capture_output=True, text=True, check=True
+                )
+                head = (SCRIPTS / name).read_text().splitlines()[1]
+                self.assertEqual(shown.stdout.splitlines()[0], head[2:])
+
     def test_screenshot_names_its_arguments(self):
         for arguments in ([], ["picture.png"]):
             refused = subprocess.run(
@@ -30,7 +39,7 @@ class Help(unittest.TestCase):
 
 def module_of(script):
     """The name of the folder with a script's Python: fit_reliability's is reliability_lib."""
-    return script.name.removeprefix("fit_") + "_lib"
+    return script.name.replace("fit_", "", 1) + "_lib"
 
 
 if __name__ == "__main__":

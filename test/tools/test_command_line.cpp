@@ -121,9 +121,17 @@ TEST_F(CommandLine, explainsAPose)
 
 TEST_F(CommandLine, refusesToExplainWhatIsNoPose)
 {
-  for (const char* text : {"", "1 2 3", "0 0 1 0 0 0 1 7", "0 0 one 0 0 0 1", "0 0 nan 0 0 0 1"})
+  for (const char* text : {"1 2 3", "0 0 1 0 0 0 1 7", "0 0 one 0 0 0 1", "0 0 nan 0 0 0 1"})
     expectRefused("detect_poses", detect({"--explain", text}), "give seven numbers");
   expectRefused("detect_poses", detect({"--explain", "0 0 1 0 0 0 0"}), "has no length");
+}
+
+TEST_F(CommandLine, refusesEmptyValues)
+{
+  for (const char* option : {"--roi", "--model", "--config", "--explain"})
+    expectRefused("detect_poses", detect({option, ""}),
+                  std::string(option) + " is empty: give a value, or leave it out");
+  expectRefused("evaluate_poses", {"", "results"}, "dataset is empty");
 }
 
 TEST_F(CommandLine, repeatsTheDetectionAndTellsHowLongItTook)

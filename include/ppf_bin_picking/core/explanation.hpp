@@ -22,7 +22,7 @@ enum class PoseFate
   kNotLookedFor,  ///< No point in the region, or a cloud that cannot be worked on.
   kNoVotes,       ///< Neither surfaces nor boundaries voted for anything near it.
   kNoCandidate,   ///< Votes, but others had more: no refined candidate is near it.
-  kContradicted,  ///< Votes, but the cloud contradicts it after a quick fit or a first look.
+  kGivenUp,       ///< The same, and at this pose one would be given up at the first looks.
   kNotSelected,   ///< A candidate, but better poses own its pixels, or it scores too little.
   kNotReliable,   ///< It stands but is not reliable; the pose has the reason.
   kReliable,      ///< It stands and is reliable.
@@ -41,15 +41,15 @@ struct NearVotes
 struct PoseExplanation
 {
   PoseFate fate = PoseFate::kNotLookedFor;
-  NearVotes surface;            ///< Votes of surface pairs.
-  NearVotes boundary;           ///< Votes of boundary pairs.
-  std::size_t candidates = 0;   ///< Refined candidates near the pose.
-  PoseEvidence evidence;        ///< Of the pose as given.
-  double score = 0;             ///< Of the pose as given, nobody else owning its pixels.
-  double balance = 0;           ///< Likewise, see evidenceBalance().
-  double hold = 0;              ///< See pose_information.hpp.
-  double quick_balance = 0;     ///< After a quick fit, see SparseFit.
-  double look_balance = 0;      ///< After the first look of the refinement, see Refinement.
+  NearVotes surface;           ///< Votes of surface pairs.
+  NearVotes boundary;          ///< Votes of boundary pairs.
+  std::size_t candidates = 0;  ///< Refined candidates near the pose.
+  PoseEvidence evidence;       ///< Of the pose as given.
+  double score = 0;            ///< Of the pose as given, nobody else owning its pixels.
+  double balance = 0;          ///< Likewise, see evidenceBalance().
+  double hold = 0;             ///< See pose_information.hpp.
+  double quick_balance = 0;    ///< After a quick fit, see SparseFit.
+  double look_balance = 0;  ///< After the refinement's first look, see Refinement; 1 without one.
   double refined_shift_m = 0;   ///< How far refinement takes the part's centre ...
   double refined_turn_rad = 0;  ///< ... and turns the part, symmetries counted.
   double refined_score = 0;     ///< The score after that.

@@ -9,8 +9,8 @@ namespace ppf_bin_picking
 /// The name with the smallest edit distance to a word; empty if there are no names.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
-/// nearestName() if it can be meant: at most a third of the letters differ, or one begins with the
-/// other; otherwise empty.
+/// nearestName() if at most a third of the letters differ; otherwise the first name of which the
+/// word is the beginning, or the other way round, with four letters at least; otherwise empty.
 std::string similarName(const std::string& word, const std::vector<std::string>& names);
 
 /// @param where  The file or parameter namespace that the key stands in.
