@@ -16,9 +16,7 @@ constexpr float kUnseenFacing =
     0.25F;  // cosine to the line of sight below which a surface need not be seen
 constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full if it is seen
 constexpr float kSureFacing =
-    1.0F;  // ... and if it is not: shiny parts lose slanted surfaces first
-constexpr float kSurelyBehindGates = 3.0F;  // of the depth gate: a cloud less far behind may be a
-                                            // sensor's round edge, or a small error
+    1.0F;                          // ... and if it is not: shiny parts lose slanted surfaces first
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
@@ -112,7 +110,7 @@ private:
     if (z == 0)
       evidence_.missing += doubt(column, row, absent_weight);
     else if (behind_m > gate_m_)
-      evidence_.looked_through += doubt(column, row, absent_weight) * behindShare(behind_m);
+      evidence_.looked_through += doubt(column, row, absent_weight);
     else if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_ &&
              isEven(column, row, pixel))
       evidence_.wrong_normal += doubt(column, row, weight);
@@ -120,12 +118,6 @@ private:
       evidence_.outside += weight;
     else
       confirm(index, weight, behind_m);
-  }
-
-  /// How much a cloud behind the surface contradicts it: nothing at the gate, in full farther off.
-  float behindShare(float behind_m) const
-  {
-    return std::min(1.0F, (behind_m / gate_m_ - 1) / (kSurelyBehindGates - 1));
   }
 
   /// True if the window of the image's plane fits sees one even piece of the part; over a crease or

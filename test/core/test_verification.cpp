@@ -166,7 +166,7 @@ TEST_F(VerificationTest, theDepthGateDecidesAlongTheNormal)
     EXPECT_GT(evidence.support(), 0.95);
     EXPECT_NEAR(evidence.rms_error_m, std::abs(gates) * gate_m(), 0.03 * gate_m());
   }
-  EXPECT_GT(moved(3.2).looked_through, 3000) << "too near to the camera";
+  EXPECT_GT(moved(1.2).looked_through, 3000) << "too near to the camera";
   EXPECT_LT(moved(1.2).confirmed.size(), 200U);
   EXPECT_GT(moved(-1.2).occluded, 3000) << "within what is measured";
   EXPECT_LT(moved(-1.2).confirmed.size(), 200U);

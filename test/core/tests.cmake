@@ -43,7 +43,7 @@ set(core_tests
     test_symmetry_check
     test_symmetry_search
     test_verification
-    test_verification_behind
     test_verification_hidden
     test_verification_relief
+    test_verification_slanted
     test_verification_slides)

@@ -41,7 +41,7 @@ struct PoseEvidence
   std::vector<Pixel> confirmed;  ///< Surface and normal agree, inside the region.
   int visible_px = 0;            ///< All pixels that nothing in front hides, unweighted.
   double confirmed_weight = 0;   ///< Sum over confirmed.
-  double looked_through = 0;     ///< The cloud lies behind the supposed surface; in full if far.
+  double looked_through = 0;     ///< The cloud lies behind the supposed surface.
   double wrong_normal = 0;       ///< A surface in the right place with another normal.
   double missing = 0;            ///< Nothing was measured.
   double occluded = 0;           ///< The cloud lies in front.
