@@ -41,10 +41,10 @@ TERMS = (
     ),
     Term(
         "margin",
-        lambda margin: clamp(margin, -0.2, 0.2),
-        "lead over the best other pose there, within -0.2 and 0.2",
+        lambda margin: clamp(margin, -0.2, 0.3),
+        "lead over the best other pose there, within -0.2 and 0.3",
         1,
-        "std::clamp(pose.margin, -0.2, 0.2)",
+        "std::clamp(pose.margin, -0.2, 0.3)",
         "kRunnerUp",
     ),
     Term(

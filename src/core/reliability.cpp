@@ -18,22 +18,22 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -1.999;
+constexpr double kIntercept = -1.600;
 
 std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.305, 2.551, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.2), 16.062, 0.192, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.464, -1.128, UnreliableReason::kSlippage},
-      {pose.slide_share, -0.650, 0.173, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.168, 0.184, UnreliableReason::kSpread},
-      {pose.looked_through, -23.515, 0.009, UnreliableReason::kLowScore},
-      {pose.goes_on, -5.515, 0.042, UnreliableReason::kSlippage},
-      {pose.claimed, -15.732, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.452, 3.298, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 2.014, 0.776, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.314, 2.551, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.3), 10.391, 0.283, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.470, -1.128, UnreliableReason::kSlippage},
+      {pose.slide_share, -0.663, 0.173, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -1.049, 0.184, UnreliableReason::kSpread},
+      {pose.looked_through, -24.273, 0.009, UnreliableReason::kLowScore},
+      {pose.goes_on, -5.347, 0.042, UnreliableReason::kSlippage},
+      {pose.claimed, -15.664, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.385, 3.298, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.994, 0.776, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace

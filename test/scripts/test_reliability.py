@@ -253,7 +253,7 @@ class TermsTest(unittest.TestCase):
         high = {**self.POSE, "score": 1, "margin": 1, "spread": 9, "visible_fraction": 1.5}
         low_row, high_row = terms.terms_of([low, high], "here")
         np.testing.assert_allclose(low_row[[0, 1, 2, 8]], [-np.log(4), -0.2, -3, np.log10(30)])
-        np.testing.assert_allclose(high_row[[0, 1, 4, 9]], [np.log(49), 0.2, 2, 1])
+        np.testing.assert_allclose(high_row[[0, 1, 4, 9]], [np.log(49), 0.3, 2, 1])
 
     def test_a_pose_without_a_value_is_refused_with_its_name_and_place(self):
         pose = {**self.POSE, "claimed": None}
@@ -269,7 +269,7 @@ class TermsTest(unittest.TestCase):
         self.assertEqual(lines[0], "constexpr double kIntercept = -1.500;")
         self.assertEqual(
             lines[3],
-            "      {std::clamp(pose.margin, -0.2, 0.2), 0.125, 10.000, UnreliableReason::kRunnerUp},",
+            "      {std::clamp(pose.margin, -0.2, 0.3), 0.125, 10.000, UnreliableReason::kRunnerUp},",
         )
         self.assertEqual(len(lines), 2 + len(terms.TERMS))
 
