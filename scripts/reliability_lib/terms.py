@@ -41,10 +41,10 @@ TERMS = (
     ),
     Term(
         "margin",
-        lambda margin: clamp(margin, -0.2, 0.3),
-        "lead over the best other pose there, within -0.2 and 0.3",
+        lambda margin: clamp(margin, -0.2, 0.5),
+        "lead over the best other pose there, within -0.2 and 0.5",
         1,
-        "std::clamp(pose.margin, -0.2, 0.3)",
+        "std::clamp(pose.margin, -0.2, 0.5)",
         "kRunnerUp",
     ),
     Term(
@@ -80,9 +80,17 @@ TERMS = (
         "kLowScore",
     ),
     Term(
+        "outline_broken",
+        float,
+        "share of its edges in sight where the cloud neither ends nor steps",
+        -1,
+        "pose.outline_broken",
+        "kLowScore",
+    ),
+    Term(
         "goes_on",
         float,
-        "share of its edges in sight beyond which the surface goes on, held poses' surfaces aside",
+        "share of the same edges beyond which the surface goes on, held poses' surfaces aside",
         -1,
         "pose.goes_on",
         "kSlippage",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -16,8 +17,6 @@ namespace
 {
 constexpr double kReachedRel = 0.02;   // a candidate nearer than this has come to a look-alike
 constexpr double kReached_rad = 0.05;  // ... and turned by less
-constexpr double kTwinRel = 0.01;      // candidates nearer than this after a look mostly end as one
-constexpr double kTwin_rad = 0.03;     // ... and turned by less
 constexpr double kLittle = 0.3;  // balance of evidence, per confirmed pixel, that needs no climb
 constexpr double kStrangeShare = 0.5;  // of the edges, where another surface runs on: no climb
 constexpr std::size_t kBatch = 32;     // candidates between two looks at the deadline
@@ -80,69 +79,30 @@ std::vector<std::size_t> fromTheBestOutwards(const std::vector<Candidate>& candi
   return order;
 }
 
-/// Candidates that are refined together, by their places in an order.
-struct Batch
-{
-  const std::vector<std::size_t>& order;  ///< Of the candidates.
-  std::size_t first;                      ///< Of order.
-  std::size_t last;                       ///< One beyond.
-};
-
-/// Gives up those of a batch that their first look took to where an earlier one in the order is, of
-/// this batch after its first look, of those before at the end of their refinement: mostly they
-/// would end as one pose. With one look only, no one is given up.
-void giveUpTwins(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
-                 const Batch& batch, const std::vector<Refinement>& refinements,
-                 const std::vector<Candidate>& candidates, std::vector<std::uint8_t>& given_up)
-{
-  for (std::size_t k = batch.first; k < batch.last; ++k)
-  {
-    if (refinements[k - batch.first].steps >= config.icp_iterations) continue;
-    const Candidate& twin = candidates[batch.order[k]];
-    const auto is_there = [&](std::size_t other)
-    {
-      return !given_up[other] &&
-             areNear(candidates[other], twin, *models[twin.model], kTwinRel, kTwin_rad);
-    };
-    const auto before = batch.order.begin() + static_cast<std::ptrdiff_t>(k);
-    if (std::any_of(batch.order.begin(), before, is_there)) given_up[batch.order[k]] = 1;
-  }
-}
-
-/// Refines a batch of candidates. Returns those that the cloud does not contradict after the first
-/// look and that are no twins; the others are given up.
+/// Refines some candidates. Returns those that the cloud does not contradict after the first look;
+/// the others are given up.
 std::vector<std::size_t> refineBatch(const RangeImage& image,
                                      const std::vector<const PpfModel*>& models,
-                                     const DetectorConfig& config, const Batch& batch,
+                                     const DetectorConfig& config,
+                                     const std::vector<std::size_t>& batch,
                                      std::vector<Candidate>& candidates,
                                      std::vector<std::uint8_t>& given_up)
 {
-  const std::size_t count = batch.last - batch.first;
-  std::vector<Refinement> refinements(count);
-  const auto look = [&](std::size_t k)
+  const auto refine = [&](std::size_t k)
   {
-    Candidate& candidate = candidates[batch.order[batch.first + k]];
-    refineByOneLook(image, *models[candidate.model], config, refinements[k]);
-    candidate.T_camera_model = refinements[k].T_camera_model;
+    Candidate& candidate = candidates[batch[k]];
+    const PpfModel& model = *models[candidate.model];
+    Refinement refinement{candidate.T_camera_model};
+    refineByOneLook(image, model, config, refinement);
+    given_up[batch[k]] = refinement.balance < config.min_look_balance;
+    while (!refinement.done && !given_up[batch[k]])
+      refineByOneLook(image, model, config, refinement);
+    candidate.T_camera_model = refinement.T_camera_model;
   };
-  const auto begin = [&](std::size_t k)
-  {
-    const std::size_t i = batch.order[batch.first + k];
-    refinements[k].T_camera_model = candidates[i].T_camera_model;
-    look(k);
-    given_up[i] = refinements[k].balance < config.min_look_balance;
-  };
-  const auto finish = [&](std::size_t k)
-  {
-    while (!refinements[k].done && !given_up[batch.order[batch.first + k]])
-      look(k);
-  };
-  parallelFor(config.threads, count, begin);
-  giveUpTwins(models, config, batch, refinements, candidates, given_up);
-  parallelFor(config.threads, count, finish);
+  parallelFor(config.threads, batch.size(), refine);
   std::vector<std::size_t> kept;
-  for (std::size_t k = batch.first; k < batch.last; ++k)
-    if (!given_up[batch.order[k]]) kept.push_back(batch.order[k]);
+  std::copy_if(batch.begin(), batch.end(), std::back_inserter(kept),
+               [&](std::size_t i) { return !given_up[i]; });
   return kept;
 }
 }  // namespace
@@ -158,18 +118,20 @@ void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*
   std::vector<std::uint8_t> given_up(candidates.size(), 0);
   for (std::size_t first = 0; first < order.size() && !deadline.passed(); first += kBatch)
   {
-    const std::size_t last = std::min(first + kBatch, order.size());
-    const std::vector<std::size_t> kept =
-        refineBatch(image, models, config, {order, first, last}, candidates, given_up);
+    const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::size_t count = std::min(kBatch, order.size() - first);
+    const std::vector<std::size_t> batch =
+        refineBatch(image, models, config, {begin, begin + static_cast<std::ptrdiff_t>(count)},
+                    candidates, given_up);
     lap("refinement");
     const auto verify = [&](std::size_t i)
     {
-      Candidate& candidate = candidates[kept[i]];
+      Candidate& candidate = candidates[batch[i]];
       candidate.evidence =
           gatherEvidence(image, *models[candidate.model], candidate.T_camera_model, config);
       candidate.verified = true;
     };
-    parallelFor(config.threads, kept.size(), verify);
+    parallelFor(config.threads, batch.size(), verify);
     lap("verification");
   }
   keepOnly(given_up, candidates);

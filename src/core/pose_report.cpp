@@ -167,7 +167,7 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
     const auto best = std::find_if(candidates.begin(), candidates.end(),
                                    [&](const Candidate& candidate)
                                    { return candidate.cluster == static_cast<std::int32_t>(c); });
-    if (best == candidates.end()) continue;  // all were given up, or are as another cluster's
+    if (best == candidates.end()) continue;  // all of its poses were given up
     const PpfModel& model = *models[best->model];
     const DetectedPose pose = poseOfCandidate(*best, model, best->evidence.confirmed_weight, 0.0);
     const ClusterShare whole = {cluster.box, cluster.hypotheses};

@@ -18,22 +18,23 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -1.600;
+constexpr double kIntercept = -0.679;
 
-std::array<Term, 10> termsOf(const DetectedPose& pose)
+std::array<Term, 11> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.314, 2.551, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.3), 10.391, 0.283, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.470, -1.128, UnreliableReason::kSlippage},
-      {pose.slide_share, -0.663, 0.173, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -1.049, 0.184, UnreliableReason::kSpread},
-      {pose.looked_through, -24.273, 0.009, UnreliableReason::kLowScore},
-      {pose.goes_on, -5.347, 0.042, UnreliableReason::kSlippage},
-      {pose.claimed, -15.664, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.385, 3.298, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.994, 0.776, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.183, 2.447, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.683, 0.453, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.526, -1.127, UnreliableReason::kSlippage},
+      {pose.slide_share, -0.806, 0.170, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.843, 0.191, UnreliableReason::kSpread},
+      {pose.looked_through, -21.366, 0.012, UnreliableReason::kLowScore},
+      {pose.outline_broken, -0.138, 0.159, UnreliableReason::kLowScore},
+      {pose.goes_on, -4.835, 0.042, UnreliableReason::kSlippage},
+      {pose.claimed, -16.535, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.340, 3.298, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.907, 0.781, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace

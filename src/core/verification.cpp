@@ -14,9 +14,7 @@ namespace
 {
 constexpr float kUnseenFacing =
     0.25F;  // cosine to the line of sight below which a surface need not be seen
-constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full if it is seen
-constexpr float kSureFacing =
-    1.0F;                          // ... and if it is not: shiny parts lose slanted surfaces first
+constexpr float kSeenFacing = 0.6F;  // ... from which on it counts in full
 constexpr float kRingRel = 0.04F;  // width of the ring along the outline where contradictions fade
 constexpr float kEdgeReachRel = 0.04F;  // how far across the outline the surface is followed
 constexpr float kStepGates = 0.5F;      // of the depth gate: smaller steps leave a normal as it is
@@ -27,12 +25,6 @@ constexpr double kMissingWeight = 0.4;    // of a contradiction
 constexpr double kMissingBalance = 0.56;  // ... in the balance of evidence
 constexpr double kHiddenWeight = 0.3;     // likewise
 constexpr double kEdgeWeight = 4.0;       // of a broken outline pixel, in pixels of surface
-
-/// What a surface counts: nothing if flat to the line of sight, in full from a cosine on.
-float weightOf(float facing, float full_facing)
-{
-  return std::clamp((facing - kUnseenFacing) / (full_facing - kUnseenFacing), 0.0F, 1.0F);
-}
 
 /// One pixel of the rendered part.
 struct ModelPixel
@@ -94,8 +86,8 @@ private:
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
     const ModelPixel pixel = modelPixel(column, row);
     const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
-    const float weight = weightOf(facing, kSeenFacing);
-    const float absent_weight = weightOf(facing, kSureFacing);
+    const float weight =
+        std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
     const float z = image_.depth[index];
     const float behind_m =
         (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
@@ -108,9 +100,9 @@ private:
     }
     ++evidence_.visible_px;
     if (z == 0)
-      evidence_.missing += doubt(column, row, absent_weight);
+      evidence_.missing += doubt(column, row, weight);
     else if (behind_m > gate_m_)
-      evidence_.looked_through += doubt(column, row, absent_weight);
+      evidence_.looked_through += doubt(column, row, weight);
     else if (!normal.isZero() && normal.dot(pixel.normal) < min_normal_cosine_ &&
              isEven(column, row, pixel))
       evidence_.wrong_normal += doubt(column, row, weight);

@@ -49,52 +49,19 @@ protected:
 
 TEST_F(VerifiedCandidates, areRefinedAndKeepTheirOrderAndEvidence)
 {
-  config_.min_sparse_balance = config_.min_look_balance = -2;
-  for (int i = 0; i < 80; ++i)  // more than are refined together
-    add(poseOf(0.005 * i, {0, 0, 1}, {0.004 * (i % 9 - 4), 0.004 * (i / 9 - 4), -0.2}) * true_pose_,
-        static_cast<float>(i % 7));
-  candidates_[37].T_camera_model =
-      (Eigen::Translation3d(0.0005, 0, 0.001) * true_pose_).cast<float>();
+  for (int i = 0; i < 80; ++i)
+    add(Eigen::Translation3d(0.0001 * i, 0, 0.001) * true_pose_, static_cast<float>(i % 7));
   const std::vector<float> given = votes();
   verify(Deadline(0, nullptr));
   EXPECT_EQ(votes(), given);
   for (const Candidate& candidate : candidates_)
   {
     EXPECT_TRUE(candidate.verified);
-    EXPECT_EQ(candidate.evidence.confirmed.size(),
-              gatherEvidence(image_, model_, candidate.T_camera_model, config_).confirmed.size());
+    EXPECT_GT(candidate.evidence.confirmed.size(), 200U);
+    EXPECT_LT(
+        (candidate.T_camera_model.translation() - true_pose_.translation().cast<float>()).norm(),
+        0.002F);
   }
-  EXPECT_GT(candidates_[37].evidence.confirmed.size(), 200U);
-  EXPECT_LT((candidates_[37].T_camera_model.translation() - true_pose_.translation().cast<float>())
-                .norm(),
-            0.002F);
-}
-
-TEST_F(VerifiedCandidates, thatComeToOnePoseAreOne)
-{
-  config_.min_sparse_balance = config_.min_look_balance = -2;
-  for (int i = 0; i < 80; ++i)  // more than are refined together
-    add(Eigen::Translation3d(0.00005 * i, 0, 0.001) * true_pose_, i == 50 ? 2.0F : 1.0F);
-  add(before_all_, 1);
-  add(Eigen::Translation3d(0, 0.03 * model_.diameter(), 0) * before_all_, 1);
-  verify(Deadline(0, nullptr));
-  EXPECT_EQ(votes(), (std::vector<float>{2, 1, 1})) << "the best stays, and what is elsewhere";
-  EXPECT_GT(candidates_[0].evidence.confirmed.size(), 200U);
-}
-
-TEST_F(VerifiedCandidates, staySeparateWhereNoLookIsLeftOrTheModelsDiffer)
-{
-  config_.min_sparse_balance = config_.min_look_balance = -2;
-  add(true_pose_, 2);
-  add(true_pose_, 1);
-  config_.icp_iterations = 4;  // one look
-  verify(Deadline(0, nullptr));
-  EXPECT_EQ(votes(), (std::vector<float>{2, 1}));
-  config_.icp_iterations = 12;
-  candidates_[1].model = 1;
-  verifyCandidates(
-      image_, {&model_, &model_}, config_, Deadline(), [](const char*) {}, candidates_);
-  EXPECT_EQ(votes(), (std::vector<float>{2, 1}));
 }
 
 TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsThem)
@@ -106,7 +73,7 @@ TEST_F(VerifiedCandidates, areGivenUpWhereTheQuickFitOrTheFirstLookContradictsTh
     candidates_.clear();
     add(before_all_, 3);
     add(true_pose_, 2);
-    add(Eigen::Translation3d(0.05, 0, 0) * before_all_, 1);
+    add(before_all_, 1);
     verify(Deadline(0, nullptr));
     return votes();
   };

@@ -17,6 +17,7 @@ DetectedPose ordinaryPose()
   pose.hold = 0.07;
   pose.spread = 0.2;
   pose.looked_through = 0.015;
+  pose.outline_broken = 0.2;
   pose.goes_on = 0.05;
   pose.claimed = 0;
   pose.confirmed_px = 2000;
@@ -53,6 +54,7 @@ TEST(Reliability, fallsWithAllThatSpeaksAgainstAPose)
   EXPECT_LT(changed([](DetectedPose& pose) { pose.slide_share = 0.9; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.spread = 1.4; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.looked_through = 0.2; }), ordinary);
+  EXPECT_LT(changed([](DetectedPose& pose) { pose.outline_broken = 0.6; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.goes_on = 0.4; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.claimed = 0.2; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.confirmed_px = 100; }), ordinary);

@@ -45,5 +45,4 @@ set(core_tests
     test_verification
     test_verification_hidden
     test_verification_relief
-    test_verification_slanted
     test_verification_slides)

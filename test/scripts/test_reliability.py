@@ -231,11 +231,12 @@ class TrainingTest(unittest.TestCase):
 class TermsTest(unittest.TestCase):
     POSE = {
         "score": 0.5,
-        "margin": 0.15,
+        "margin": 0.3,
         "hold": 0.01,
         "slide_share": 0.7,
         "spread": 0.4,
         "looked_through": 0.02,
+        "outline_broken": 0.1,
         "goes_on": 0.05,
         "claimed": 0.03,
         "confirmed_px": 1000,
@@ -245,15 +246,15 @@ class TermsTest(unittest.TestCase):
     def test_values_are_those_of_the_result_in_their_scales(self):
         row = terms.terms_of([self.POSE], "here")[0]
         np.testing.assert_allclose(
-            row, [0, 0.15, -2, 0.7, 0.4, 0.02, 0.05, 0.03, 3, 0.6], atol=1e-12
+            row, [0, 0.3, -2, 0.7, 0.4, 0.02, 0.1, 0.05, 0.03, 3, 0.6], atol=1e-12
         )
 
     def test_extremes_are_clamped(self):
         low = {**self.POSE, "score": 0, "margin": -1, "hold": 0, "confirmed_px": 0}
         high = {**self.POSE, "score": 1, "margin": 1, "spread": 9, "visible_fraction": 1.5}
         low_row, high_row = terms.terms_of([low, high], "here")
-        np.testing.assert_allclose(low_row[[0, 1, 2, 8]], [-np.log(4), -0.2, -3, np.log10(30)])
-        np.testing.assert_allclose(high_row[[0, 1, 4, 9]], [np.log(49), 0.3, 2, 1])
+        np.testing.assert_allclose(low_row[[0, 1, 2, 9]], [-np.log(4), -0.2, -3, np.log10(30)])
+        np.testing.assert_allclose(high_row[[0, 1, 4, 10]], [np.log(49), 0.5, 2, 1])
 
     def test_a_pose_without_a_value_is_refused_with_its_name_and_place(self):
         pose = {**self.POSE, "claimed": None}
@@ -269,7 +270,7 @@ class TermsTest(unittest.TestCase):
         self.assertEqual(lines[0], "constexpr double kIntercept = -1.500;")
         self.assertEqual(
             lines[3],
-            "      {std::clamp(pose.margin, -0.2, 0.3), 0.125, 10.000, UnreliableReason::kRunnerUp},",
+            "      {std::clamp(pose.margin, -0.2, 0.5), 0.125, 10.000, UnreliableReason::kRunnerUp},",
         )
         self.assertEqual(len(lines), 2 + len(terms.TERMS))
 

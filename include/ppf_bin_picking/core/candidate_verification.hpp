@@ -12,7 +12,7 @@ namespace ppf_bin_picking
 /// Refines the candidates and gathers their evidence, from the one with the most votes outwards, so
 /// that a deadline leaves a place of which all candidates are verified. Leaves out those that the
 /// cloud contradicts after a quick fit (min_sparse_balance) or after the first look of the
-/// refinement (min_look_balance), and those that this look takes to where another one is.
+/// refinement (min_look_balance).
 /// @param lap  Called with the name of each stage at its end, several times.
 void verifyCandidates(const RangeImage& image, const std::vector<const PpfModel*>& models,
                       const DetectorConfig& config, const Deadline& deadline,
