@@ -23,54 +23,32 @@ constexpr float kMinNormalCosine = 0.7F;
 // from sliding along their faces into one.
 constexpr float kDamping = 0.1F;
 
-/// A pose about the part's centre.
-struct CenteredPose
-{
-  Eigen::Matrix3f rotation;
-  Eigen::Vector3f center;  ///< Camera frame [m].
-
-  Eigen::Isometry3f transform() const
-  {
-    Eigen::Isometry3f T_camera_samples = Eigen::Isometry3f::Identity();
-    T_camera_samples.linear() = rotation;
-    T_camera_samples.translation() = center;
-    return T_camera_samples;
-  }
-};
-
 /// Some of the model's samples that face the camera, about the part's centre.
-PointArrays facingSamples(const PpfModelData& model, const CenteredPose& pose)
+PointArrays facingSamples(const PpfModelData& model, const Eigen::Isometry3f& T_camera_samples)
 {
   PointArrays samples;
   // about a third of a part's samples face the camera
   const std::size_t stride = std::max<std::size_t>(1, model.points.size() / (3 * kSamples));
   for (std::size_t i = 0; i < model.points.size(); i += stride)
-  {
-    const Eigen::Vector3f point = pose.rotation * model.points[i] + pose.center;
-    if (facesCamera(point, pose.rotation * model.normals[i]))
+    if (facesCamera(T_camera_samples * model.points[i],
+                    T_camera_samples.linear() * model.normals[i]))
       samples.add(model.points[i].data(), model.normals[i].data());
-  }
   return samples;
 }
 
 /// One step of point-to-plane ICP. False where too little is seen of the part.
 bool step(const ImageArrays& image, const PointArrays& samples, float lever_m, float gate_m,
-          CenteredPose& pose)
+          Eigen::Isometry3f& T_camera_samples)
 {
-  NormalEquations equations = alignmentOf(
-      samples, image, pose.transform(),
-      {{pose.center.x(), pose.center.y(), pose.center.z()}, lever_m, gate_m, kMinNormalCosine});
+  const Eigen::Vector3f center = T_camera_samples.translation();
+  NormalEquations equations =
+      alignmentOf(samples, image, T_camera_samples,
+                  {{center.x(), center.y(), center.z()}, lever_m, gate_m, kMinNormalCosine});
   if (!(equations.weight > 6)) return false;
   Matrix6f& matrix = equations.matrix;
   matrix.diagonal().array() += kDamping * matrix.trace() / 6;
   const Vector6f motion = matrix.ldlt().solve(equations.right_side);
-  const Eigen::Vector3f turn = motion.head<3>() / lever_m;
-  const float angle = turn.norm();
-  if (angle > 0)
-    pose.rotation = Eigen::Quaternionf(Eigen::AngleAxisf(angle, turn / angle) * pose.rotation)
-                        .normalized()
-                        .toRotationMatrix();
-  pose.center += motion.tail<3>();
+  T_camera_samples = moved(T_camera_samples, motion, center, lever_m);
   return true;
 }
 }  // namespace
@@ -79,22 +57,23 @@ SparseFit fitSparsely(const RangeImage& image, const PpfModel& model,
                       const Eigen::Isometry3f& T_camera_model, const DetectorConfig& config)
 {
   const PpfModelData& data = model.data();
-  CenteredPose pose{T_camera_model.linear(), T_camera_model * data.center};
-  const PointArrays samples = facingSamples(data, pose);
+  Eigen::Isometry3f T_camera_samples = T_camera_model * Eigen::Translation3f(data.center);
+  const PointArrays samples = facingSamples(data, T_camera_samples);
   const ImageArrays arrays = arraysOf(image);
   const int steps = std::min(kSteps, config.icp_iterations);
   for (int i = 0; i < steps; ++i)
   {
     const float progress = static_cast<float>(i) / static_cast<float>(kSteps - 1);
     const float gate_rel = kFirstGateRel * std::pow(kLastGateRel / kFirstGateRel, progress);
-    if (!step(arrays, samples, kLeverRel * data.diameter_m, gate_rel * data.diameter_m, pose))
+    if (!step(arrays, samples, kLeverRel * data.diameter_m, gate_rel * data.diameter_m,
+              T_camera_samples))
       break;
   }
   const float gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * data.diameter_m;
   SparseFit fit;
-  fit.balance = sampleBalance(image, facingSamples(data, pose), pose.transform(), gate_m, config);
-  fit.T_camera_model.linear() = pose.rotation;
-  fit.T_camera_model.translation() = pose.center - pose.rotation * data.center;
+  fit.balance =
+      sampleBalance(image, facingSamples(data, T_camera_samples), T_camera_samples, gate_m, config);
+  fit.T_camera_model = T_camera_samples * Eigen::Translation3f(-data.center);
   return fit;
 }
 }  // namespace ppf_bin_picking
