@@ -24,13 +24,15 @@ int failed(const CLI::App& app, const std::string& sentence, int status)
   std::cerr << app.get_name() << ": " << sentence << "\n";
   return status;
 }
+
 /// What is empty was meant to be something: a shell's variable that is not set, say.
 void requireValues(const CLI::App& app)
 {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results())
       if (value.empty())
-        throw InputError(option->get_name() + " is empty: give a value, or leave it out");
+        throw InputError(option->get_name() + " is empty: give a value" +
+                         (option->get_required() ? "" : ", or leave it out"));
 }
 }  // namespace
 

@@ -131,7 +131,7 @@ TEST_F(CommandLine, refusesEmptyValues)
   for (const char* option : {"--roi", "--model", "--config", "--explain"})
     expectRefused("detect_poses", detect({option, ""}),
                   std::string(option) + " is empty: give a value, or leave it out");
-  expectRefused("evaluate_poses", {"", "results"}, "dataset is empty");
+  expectRefused("evaluate_poses", {"", "results"}, "dataset is empty: give a value\n");
 }
 
 TEST_F(CommandLine, repeatsTheDetectionAndTellsHowLongItTook)
