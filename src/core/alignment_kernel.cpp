@@ -14,12 +14,12 @@ struct Vectors
   Floats x, y, z;
 };
 
-inline Floats dot(const Vectors& a, const Vectors& b)
+PPF_BIN_PICKING_INLINE Floats dot(const Vectors& a, const Vectors& b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-inline Vectors turned(const RigidMotion& motion, const Vectors& v)
+PPF_BIN_PICKING_INLINE Vectors turned(const RigidMotion& motion, const Vectors& v)
 {
   const auto& r = motion.rotation;
   return {r[0][0] * v.x + r[0][1] * v.y + r[0][2] * v.z,
@@ -58,7 +58,7 @@ struct Measured
   Integers known;
 };
 
-inline Measured lookUp(const ImageArrays& image, const Vectors& p)
+PPF_BIN_PICKING_INLINE Measured lookUp(const ImageArrays& image, const Vectors& p)
 {
   const Floats u = image.fx * p.x / p.z + image.cx, v = image.fy * p.y / p.z + image.cy;
   const Integers inside = (p.z > 0) & (u > -0.5F) & (u < static_cast<float>(image.width) - 0.5F) &
@@ -84,15 +84,13 @@ inline Measured lookUp(const ImageArrays& image, const Vectors& p)
   return measured;
 }
 
-inline float sumOf(Floats values)
+PPF_BIN_PICKING_INLINE float sumOf(Floats values)
 {
   float sum = 0;
   for (int k = 0; k < kLanes; ++k)
     sum += values[k];
   return sum;
 }
-
-constexpr Integers kLaneNumbers = {0, 1, 2, 3, 4, 5, 6, 7};
 }  // namespace
 
 PPF_BIN_PICKING_CLONES

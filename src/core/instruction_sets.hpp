@@ -8,3 +8,7 @@
 #else
 #define PPF_BIN_PICKING_CLONES
 #endif
+
+// For what they call: inlined, or it would be compiled for the least instruction set alone, to
+// which wider vectors are passed in another way.
+#define PPF_BIN_PICKING_INLINE inline __attribute__((always_inline))

@@ -2,6 +2,8 @@
 /// with lanes are inlined into those that are compiled for several instruction sets.
 #pragma once
 
+#include "instruction_sets.hpp"
+
 #include <cstdint>
 #include <cstring>
 
@@ -12,20 +14,27 @@ constexpr int kLanes = 8;
 using Floats = float __attribute__((vector_size(kLanes * sizeof(float))));
 using Integers = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
-inline Floats load(const float* from)
+constexpr Integers kLaneNumbers = {0, 1, 2, 3, 4, 5, 6, 7};
+
+PPF_BIN_PICKING_INLINE Floats load(const float* from)
 {
   Floats values;
   std::memcpy(&values, from, sizeof(values));
   return values;
 }
 
+PPF_BIN_PICKING_INLINE void store(Integers values, std::int32_t* to)
+{
+  std::memcpy(to, &values, sizeof(values));
+}
+
 /// The values where the mask is set, 0 elsewhere.
-inline Floats where(Integers mask, Floats values)
+PPF_BIN_PICKING_INLINE Floats where(Integers mask, Floats values)
 {
   return mask ? values : Floats{};
 }
 
-inline Floats magnitude(Floats values)
+PPF_BIN_PICKING_INLINE Floats magnitude(Floats values)
 {
   return values < 0 ? -values : values;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 namespace ppf_bin_picking
 {
@@ -27,12 +27,16 @@ bool covered(const RenderedPart& view, int column, int row)
          view.depthAt(column, row) > 0;
 }
 
-/// The depth nearest to a place in the image [m]; NaN on its rim and beyond.
+/// True if a place lies in the image, and not on its rim.
+bool isInside(const PinholeCamera& camera, const Eigen::Vector2f& at)
+{
+  return at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(camera.width - 1) &&
+         at.y() < static_cast<float>(camera.height - 1);
+}
+
+/// The depth nearest to a place inside the image [m].
 float depthNear(const RangeImage& image, const Eigen::Vector2f& at)
 {
-  if (!(at.x() > 0 && at.y() > 0 && at.x() < static_cast<float>(image.camera.width - 1) &&
-        at.y() < static_cast<float>(image.camera.height - 1)))
-    return std::numeric_limits<float>::quiet_NaN();
   return image.depth[image.index(static_cast<int>(at.x() + 0.5F), static_cast<int>(at.y() + 0.5F))];
 }
 
@@ -48,15 +52,38 @@ float slopeAt(const RenderedPart& view, const PinholeCamera& camera, int column,
   return z / camera.fx * std::sqrt(1 - std::min(1.0F, cosine * cosine)) / cosine;
 }
 
+/// True if a fall between two pixels is more than a jump and what the slopes there explain.
+/// @param slope_m  Of the first pixel's surface, see slopeAt().
+bool isSteep(const RenderedPart& view, const PinholeCamera& camera, float fall_m, int distance_px,
+             float slope_m, int next_column, int next_row, float jump_m)
+{
+  const float steeper_m = std::max(slope_m, slopeAt(view, camera, next_column, next_row));
+  return fall_m > jump_m + kSlopeMargin * static_cast<float>(distance_px) * steeper_m;
+}
+
 /// From the surface's pixels to the others around a pixel; zero if they balance.
 Eigen::Vector2f outwardDirection(const RenderedPart& view, const PinholeCamera& camera, int column,
                                  int row, float jump_m)
 {
-  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  const float z = view.depthAt(column, row), slope_m = slopeAt(view, camera, column, row);
+  const auto ends = [&](int dc, int dr)
+  {
+    const int c = column + dc, r = row + dr;
+    if (c < 0 || r < 0 || c >= view.width || r >= view.height) return true;
+    const float next_m = view.depthAt(c, r);
+    return next_m == 0 || (next_m - z >= jump_m &&
+                           isSteep(view, camera, next_m - z, std::max(std::abs(dc), std::abs(dr)),
+                                   slope_m, c, r, jump_m));
+  };
+  int right = 0, down = 0;
   for (int dr = -kDirectionRadius_px; dr <= kDirectionRadius_px; ++dr)
     for (int dc = -kDirectionRadius_px; dc <= kDirectionRadius_px; ++dc)
-      if (surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m))
-        sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
+      if (ends(dc, dr))
+      {
+        right += dc;
+        down += dr;
+      }
+  const Eigen::Vector2f sum(static_cast<float>(right), static_cast<float>(down));
   const float length = sum.norm();
   return length > 1 ? Eigen::Vector2f(sum / length) : Eigen::Vector2f::Zero();
 }
@@ -65,7 +92,15 @@ Eigen::Vector2f outwardDirection(const RenderedPart& view, const PinholeCamera& 
 void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int column, int row,
                  int reach_px, OutlinePoint& outline)
 {
-  outline.profile_m.fill(0);
+  constexpr int kCount = 2 * kOutlineReach_px + 1;
+  std::array<int, kCount> columns, rows;  // relative to the point's
+  for (int i = 0; i < kCount; ++i)
+  {
+    const auto step = static_cast<float>(i - kOutlineReach_px);
+    columns[i] = rounded(step * outline.direction.x());
+    rows[i] = rounded(step * outline.direction.y());
+  }
+  std::array<float, kCount>& profile_m = outline.profile_m;
   const Eigen::Vector3f& normal =
       view.normals[view.triangle[static_cast<std::size_t>(row) * view.width + column]];
   const float z0 = view.depthAt(column, row);
@@ -73,19 +108,35 @@ void fillProfile(const RenderedPart& view, const PinholeCamera& camera, int colu
   // The plane's depth at a pixel is plane / (normal . ray), which grows by constants.
   const float plane = normal.dot(outline.point), here = plane / z0;
   const float by_column = normal.x() / camera.fx, by_row = normal.y() / camera.fy;
-  for (int t = -reach_px; t <= reach_px; ++t)
+  const bool goes_on = facing > kPlaneFacing;
+  for (int i = 0; i < kCount; ++i)
+    profile_m[i] = goes_on ? plane / (here + static_cast<float>(columns[i]) * by_column +
+                                      static_cast<float>(rows[i]) * by_row) -
+                                 z0
+                           : 0.0F;
+  for (int i = kOutlineReach_px - reach_px; i <= kOutlineReach_px; ++i)
+    if (covered(view, column + columns[i], row + rows[i]))
+      profile_m[i] = view.depthAt(column + columns[i], row + rows[i]) - z0;
+  std::fill(profile_m.begin(), profile_m.end() - (kOutlineReach_px + 1 + reach_px), 0.0F);
+  std::fill(profile_m.begin() + (kOutlineReach_px + 1 + reach_px), profile_m.end(), 0.0F);
+}
+
+/// The pixels beside which the part may end, see markFalls(), row after row.
+std::vector<std::uint32_t> pixelsBesideFalls(const RenderedPart& view, float jump_m)
+{
+  constexpr std::size_t kTogether = sizeof(std::uint64_t);
+  const std::size_t count = view.depth.size();
+  std::vector<std::uint8_t> marks(count + kTogether, 0);
+  markFalls(view.depth.data(), view.width, view.height, jump_m, marks.data());
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t first = 0; first < count; first += kTogether)
   {
-    const auto step = static_cast<float>(t);
-    const int c = column + rounded(step * outline.direction.x());
-    const int r = row + rounded(step * outline.direction.y());
-    float& relative = outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
-    if (t <= 0 && covered(view, c, r))
-      relative = view.depthAt(c, r) - z0;
-    else if (facing > kPlaneFacing)
-      relative = plane / (here + static_cast<float>(c - column) * by_column +
-                          static_cast<float>(r - row) * by_row) -
-                 z0;
+    std::uint64_t some;
+    std::memcpy(&some, &marks[first], sizeof(some));
+    for (std::size_t i = first; some != 0 && i < first + kTogether; ++i)
+      if (marks[i] != 0) pixels.push_back(static_cast<std::uint32_t>(i));
   }
+  return pixels;
 }
 
 /// The end of a surface that the cloud lies behind from a pixel on. What is lost or mixed in
@@ -101,38 +152,33 @@ bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int colu
                  int next_column, int next_row, float jump_m)
 {
   const float fall_m = view.depthAt(next_column, next_row) - view.depthAt(column, row);
-  const auto distance_px =
-      static_cast<float>(std::max(std::abs(next_column - column), std::abs(next_row - row)));
-  const float slope_m =
-      std::max(slopeAt(view, camera, column, row), slopeAt(view, camera, next_column, next_row));
-  return fall_m > jump_m + kSlopeMargin * distance_px * slope_m;
+  const int distance_px = std::max(std::abs(next_column - column), std::abs(next_row - row));
+  return isSteep(view, camera, fall_m, distance_px, slopeAt(view, camera, column, row), next_column,
+                 next_row, jump_m);
 }
 
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
                                     float jump_m, int reach_px, int stride)
 {
-  std::vector<std::uint8_t> marks(view.depth.size());
-  markFalls(view.depth.data(), view.width, view.height, jump_m, marks.data());
   std::vector<OutlinePoint> outline;
   int seen = 0;
-  for (int row = 0; row < view.height; ++row)
-    for (int column = 0; column < view.width; ++column)
-    {
-      if (marks[static_cast<std::size_t>(row) * view.width + column] == 0) continue;
-      const float z = view.depthAt(column, row);
-      const auto ends = [&](int dc, int dr)
-      { return surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m); };
-      const bool inner = !ends(-1, 0) && !ends(1, 0) && !ends(0, -1) && !ends(0, 1);
-      if (inner || seen++ % stride != 0) continue;
-      OutlinePoint point;
-      point.direction = outwardDirection(view, camera, column, row, jump_m);
-      if (point.direction.isZero()) continue;
-      const Eigen::Vector3f ray =
-          camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
-      point.point = ray * z;
-      fillProfile(view, camera, column, row, reach_px, point);
-      outline.push_back(point);
-    }
+  for (const std::uint32_t pixel : pixelsBesideFalls(view, jump_m))
+  {
+    const int column = static_cast<int>(pixel) % view.width;
+    const int row = static_cast<int>(pixel) / view.width;
+    const auto ends = [&](int dc, int dr)
+    { return surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m); };
+    const bool inner = !ends(-1, 0) && !ends(1, 0) && !ends(0, -1) && !ends(0, 1);
+    if (inner || seen++ % stride != 0) continue;
+    OutlinePoint point;
+    point.direction = outwardDirection(view, camera, column, row, jump_m);
+    if (point.direction.isZero()) continue;
+    const Eigen::Vector3f ray =
+        camera.ray(static_cast<float>(view.left + column), static_cast<float>(view.top + row));
+    point.point = ray * view.depth[pixel];
+    fillProfile(view, camera, column, row, reach_px, point);
+    outline.push_back(point);
+  }
   return outline;
 }
 
@@ -141,13 +187,17 @@ OutlineMatch matchOutline(const RangeImage& image, const OutlinePoint& outline,
 {
   if (!(point_camera.z() > 0)) return {};
   const Eigen::Vector2f pixel = image.camera.project(point_camera);
+  const Eigen::Vector2f whole_reach = static_cast<float>(reach_px) * outline.direction;
+  const bool is_inside =
+      isInside(image.camera, pixel - whole_reach) && isInside(image.camera, pixel + whole_reach);
   bool on_surface = false, hidden = false;
   int absent = 0, last_px = 0;
   float last_z = 0;
   for (int t = -reach_px; t <= reach_px; ++t)
   {
-    const float z = depthNear(image, pixel + static_cast<float>(t) * outline.direction);
-    if (std::isnan(z)) return {};
+    const Eigen::Vector2f at = pixel + static_cast<float>(t) * outline.direction;
+    if (!is_inside && !isInside(image.camera, at)) return {};
+    const float z = depthNear(image, at);
     const float expected_m =
         point_camera.z() + outline.profile_m[static_cast<std::size_t>(t + kOutlineReach_px)];
     const float behind_m = z - expected_m;

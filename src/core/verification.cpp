@@ -85,12 +85,12 @@ private:
   {
     const std::size_t index = image_.index(view_.left + column, view_.top + row);
     const ModelPixel pixel = modelPixel(column, row);
-    const float facing = -pixel.normal.dot(pixel.ray) / pixel.ray.norm();
+    const float stretch = pixel.ray.norm();  // distance per depth
+    const float facing = -pixel.normal.dot(pixel.ray) / stretch;
     const float weight =
         std::clamp((facing - kUnseenFacing) / (kSeenFacing - kUnseenFacing), 0.0F, 1.0F);
     const float z = image_.depth[index];
-    const float behind_m =
-        (z - view_.depthAt(column, row)) * pixel.ray.norm() * std::max(facing, 0.3F);
+    const float behind_m = (z - view_.depthAt(column, row)) * stretch * std::max(facing, 0.3F);
     const Eigen::Vector3f& normal = image_.normals[index];
     if (z > 0) behind_m_[static_cast<std::size_t>(row) * view_.width + column] = behind_m;
     if (z > 0 && behind_m < -gate_m_)
