@@ -107,6 +107,10 @@ which installs and builds what it needs, runs `compare_detectors` (test/bench/co
 `evaluate_poses`. {len(scenes)} scenes of {', '.join(parts)}. Commit {facts['commit']}; {facts['machine']}. One process runs all detectors of
 a part; each training and each detection has a child of its own, in which the time is taken, and which is given up
 after {facts['limit_s']} s. A detection that failed counts as one without poses, and in no time and no ratio.
+
+How the times grow with the cloud, the parts, the noise and the models tells [growth.md](growth.md):
+
+![Time against points, parts, noise and models](images/growth.png)
 """
 
 

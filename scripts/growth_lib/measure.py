@@ -27,7 +27,7 @@ def run_measured(name, *arguments):
     return printed, time.monotonic() - start, usage.ru_maxrss / 1024
 
 
-def detect(scenes, model, scene, output, threads=2, part=None):
+def detect(part_file, model, scene, output, threads=2):
     """Several detections of a scene.
 
     Returns milliseconds of the first one and of the median, those of each stage of the last one, its reliable poses, and
@@ -35,8 +35,8 @@ def detect(scenes, model, scene, output, threads=2, part=None):
     """
     printed, _, resident_mb = run_measured(
         "detect_poses",
-        *("--part", scenes.part_file(part) if part else scenes.part_file()),
-        *("--model", model, *scene, "--threads", threads, "--repeat", RUNS, "--output", output),
+        *("--part", part_file, "--model", model, *scene),
+        *("--threads", threads, "--repeat", RUNS, "--output", output),
     )
     first, median = map(float, DISTRIBUTION.search(printed).groups())
     result = json.loads(output.read_text())
@@ -47,6 +47,15 @@ def detect(scenes, model, scene, output, threads=2, part=None):
         "reliable": sum(pose["reliable"] for pose in result["poses"]),
         "mb": resident_mb,
     }
+
+
+def train(part_file, model, config=None):
+    """Trains a model file. Returns what was printed, and seconds."""
+    settings = ("--config", config) if config else ()
+    printed, seconds, _ = run_measured(
+        "train_model", "--part", part_file, *settings, "--output", model
+    )
+    return printed, seconds
 
 
 def stage_rates(part_filter, output):

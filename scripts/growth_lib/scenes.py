@@ -1,4 +1,4 @@
-"""Scenes that differ in one thing: points of the cloud, parts in the bin, noise."""
+"""Scenes and meshes that differ in one thing: points of the cloud, parts in the bin, noise, triangles."""
 
 import shutil
 
@@ -13,6 +13,8 @@ PART = "bracket"
 COUNT = 16  # parts, where these are not what differs
 PRESET = "industrial"
 SEED = 401
+# A triangle of a binary STL file, after a head of 80 bytes and their number.
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 class Copy:
@@ -45,6 +47,14 @@ def arguments(folder):
         *("--depth", folder / "depth.png", "--camera", folder / "camera.yaml"),
         *("--roi", folder / "roi.yaml"),
     )
+
+
+def cut_into_four(triangles):
+    """Each of n x 3 corners x 3 coordinates by the middles of its edges."""
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.concatenate([np.stack(corners, axis=1) for corners in parts])
 
 
 class Scenes:
@@ -81,6 +91,23 @@ class Scenes:
 
     def of_count(self, count):
         return arguments(self.bench.scene_path(Scene(PART, count, PRESET, SEED)))
+
+    def of_triangles(self, times):
+        """The part with each triangle of its mesh cut into four, some times. Returns its part file and its triangles."""
+        source, folder = self.bench.part_folder(PART), self.folder / f"cut-{times}"
+        folder.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source / "part.yaml", folder / "part.yaml")
+        facets = np.fromfile(source / "model.stl", dtype=FACET, offset=84)
+        corners = facets["corners"].astype(float)
+        for _ in range(times):
+            corners = cut_into_four(corners)
+        facets = np.zeros(len(corners), dtype=FACET)
+        facets["corners"] = corners
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        facets["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        with (folder / "model.stl").open("wb") as file:
+            file.write(bytes(80) + np.uint32(len(facets)).tobytes() + facets.tobytes())
+        return folder / "part.yaml", len(facets)
 
     def of_noise(self, noise_mm):
         """The standard scene with Gaussian noise on its depth."""

@@ -6,6 +6,17 @@ find_package(PCL REQUIRED COMPONENTS common io)
 find_package(yaml-cpp REQUIRED)
 find_package(ZLIB REQUIRED)
 
+# VTK comes with PCL, which is built on it and finds it; its libraries have other names before VTK 9.
+if(TARGET VTK::FiltersCore)
+  set(vtk_prefix "VTK::")
+elseif(TARGET vtkFiltersCore)
+  set(vtk_prefix "vtk")
+else()
+  message(
+    FATAL_ERROR
+      "VTK is missing: install libvtk9-dev (libvtk7-dev on Ubuntu 20.04), or run scripts/setup")
+endif()
+
 set(io_libraries
     assimp::assimp
     nlohmann_json::nlohmann_json
@@ -13,6 +24,10 @@ set(io_libraries
     opencv_imgcodecs
     pcl_common
     pcl_io
+    ${vtk_prefix}CommonCore
+    ${vtk_prefix}CommonDataModel
+    ${vtk_prefix}CommonExecutionModel
+    ${vtk_prefix}FiltersCore
     ZLIB::ZLIB)
 set(io_dir "${CMAKE_CURRENT_LIST_DIR}")
 add_library(
@@ -26,9 +41,11 @@ add_library(
   ${io_dir}/key_check.cpp
   ${io_dir}/length_unit.cpp
   ${io_dir}/mesh_io.cpp
+  ${io_dir}/mesh_simplification.cpp
   ${io_dir}/model_io.cpp
   ${io_dir}/package_path.cpp
   ${io_dir}/part_io.cpp
+  ${io_dir}/part_training.cpp
   ${io_dir}/ply_check.cpp
   ${io_dir}/png_check.cpp
   ${io_dir}/result_io.cpp

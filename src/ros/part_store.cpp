@@ -5,14 +5,15 @@
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/key_check.hpp"
 #include "ppf_bin_picking/io/mesh_io.hpp"
+#include "ppf_bin_picking/io/mesh_simplification.hpp"
 #include "ppf_bin_picking/io/model_io.hpp"
-#include "ppf_bin_picking/io/part_io.hpp"
+#include "ppf_bin_picking/io/part_training.hpp"
 #include "ppf_bin_picking/ros/request_failed.hpp"
-#include "ppf_bin_picking/ros/simplified_mesh.hpp"
 
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace ppf_bin_picking_ros
 {
@@ -41,10 +42,11 @@ PpfModel modelOf(const PartDescription& part, const DetectorConfig& config)
     ROS_WARN_STREAM(warning);
   if (part.model_file.empty())
   {
-    const ppf_bin_picking::PartSymmetries symmetries =
-        ppf_bin_picking::symmetriesOf(part, loaded.mesh);
-    ROS_INFO_STREAM("Part '" << part.model_id << "': " << symmetries.summary);
-    return PpfModel::train(loaded.mesh, symmetries.group, config.model);
+    ppf_bin_picking::TrainedPart trained =
+        ppf_bin_picking::trainPart(part, loaded.mesh, config.model);
+    for (const std::string& note : trained.notes)
+      ROS_INFO_STREAM("Part '" << part.model_id << "': " << note);
+    return std::move(trained.model);
   }
   ppf_bin_picking::ModelFile file = ppf_bin_picking::loadModel(part.model_file);
   ppf_bin_picking::requireFit(file, part, ppf_bin_picking::meshChecksum(loaded.mesh));
@@ -61,7 +63,8 @@ LoadedPart loadedPart(const PartDescription& part, const ServerParams& params)
   if (!problem.empty()) throw InputError(part.source + ": " + problem);
   for (const ppf_bin_picking::Pick& pick : part.picks)
     loaded.view.T_model_picks.push_back(pick.T_model_pick);
-  loaded.view.mesh_to_draw = simplifiedMesh(loaded.model.data().mesh, kMaxDrawnTriangles);
+  loaded.view.mesh_to_draw =
+      ppf_bin_picking::decimated(loaded.model.data().mesh, kMaxDrawnTriangles);
   return loaded;
 }
 }  // namespace

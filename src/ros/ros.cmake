@@ -13,8 +13,7 @@ add_library(
   src/ros/request_steps.cpp
   src/ros/result_merging.cpp
   src/ros/result_publisher.cpp
-  src/ros/server_diagnostics.cpp
-  src/ros/simplified_mesh.cpp)
+  src/ros/server_diagnostics.cpp)
 add_dependencies(${PROJECT_NAME}_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_io ${catkin_LIBRARIES})
 

@@ -5,6 +5,7 @@
 #include "ppf_bin_picking/io/depth_io.hpp"
 #include "ppf_bin_picking/io/input_error.hpp"
 #include "ppf_bin_picking/io/mesh_io.hpp"
+#include "ppf_bin_picking/io/part_training.hpp"
 #include "ppf_bin_picking/io/yaml_map.hpp"
 
 #include <chrono>
@@ -116,14 +117,15 @@ PpfModel trainedModel(const ToolPart& part)
 {
   report("training " + part.description.model_id + ": " +
          std::to_string(part.mesh.triangles.size()) + " triangles ...");
-  const PartSymmetries symmetries = symmetriesOf(part.description, part.mesh);
-  PpfModel model = PpfModel::train(part.mesh, symmetries.group, part.config.model);
+  TrainedPart trained = trainPart(part.description, part.mesh, part.config.model);
+  const PpfModel& model = trained.model;
   std::ostringstream line;
   line << "trained " << part.description.model_id << ": diameter " << model.diameter() << " m, "
        << model.data().points.size() << " points, " << model.data().entries.size() << " pairs";
+  for (const std::string& note : trained.notes)
+    report(note);
   report(line.str());
-  report(symmetries.summary);
-  return model;
+  return std::move(trained.model);
 }
 
 void SceneOptions::add(CLI::App& app)

@@ -7,9 +7,11 @@ set(io_tests
     test_file_bytes
     test_key_check
     test_mesh_io
+    test_mesh_simplification
     test_model_io
     test_package_path
     test_part_io
+    test_part_training
     test_result_io
     test_shipped_parts
     test_yaml_map)

@@ -9,5 +9,4 @@ set(ros_tests
     test_markers
     test_params
     test_request_steps
-    test_result_merging
-    test_simplified_mesh)
+    test_result_merging)
