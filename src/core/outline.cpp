@@ -52,38 +52,15 @@ float slopeAt(const RenderedPart& view, const PinholeCamera& camera, int column,
   return z / camera.fx * std::sqrt(1 - std::min(1.0F, cosine * cosine)) / cosine;
 }
 
-/// True if a fall between two pixels is more than a jump and what the slopes there explain.
-/// @param slope_m  Of the first pixel's surface, see slopeAt().
-bool isSteep(const RenderedPart& view, const PinholeCamera& camera, float fall_m, int distance_px,
-             float slope_m, int next_column, int next_row, float jump_m)
-{
-  const float steeper_m = std::max(slope_m, slopeAt(view, camera, next_column, next_row));
-  return fall_m > jump_m + kSlopeMargin * static_cast<float>(distance_px) * steeper_m;
-}
-
 /// From the surface's pixels to the others around a pixel; zero if they balance.
 Eigen::Vector2f outwardDirection(const RenderedPart& view, const PinholeCamera& camera, int column,
                                  int row, float jump_m)
 {
-  const float z = view.depthAt(column, row), slope_m = slopeAt(view, camera, column, row);
-  const auto ends = [&](int dc, int dr)
-  {
-    const int c = column + dc, r = row + dr;
-    if (c < 0 || r < 0 || c >= view.width || r >= view.height) return true;
-    const float next_m = view.depthAt(c, r);
-    return next_m == 0 || (next_m - z >= jump_m &&
-                           isSteep(view, camera, next_m - z, std::max(std::abs(dc), std::abs(dr)),
-                                   slope_m, c, r, jump_m));
-  };
-  int right = 0, down = 0;
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   for (int dr = -kDirectionRadius_px; dr <= kDirectionRadius_px; ++dr)
     for (int dc = -kDirectionRadius_px; dc <= kDirectionRadius_px; ++dc)
-      if (ends(dc, dr))
-      {
-        right += dc;
-        down += dr;
-      }
-  const Eigen::Vector2f sum(static_cast<float>(right), static_cast<float>(down));
+      if (surfaceEnds(view, camera, column, row, column + dc, row + dr, jump_m))
+        sum += Eigen::Vector2f(static_cast<float>(dc), static_cast<float>(dr));
   const float length = sum.norm();
   return length > 1 ? Eigen::Vector2f(sum / length) : Eigen::Vector2f::Zero();
 }
@@ -152,9 +129,11 @@ bool isSteepFall(const RenderedPart& view, const PinholeCamera& camera, int colu
                  int next_column, int next_row, float jump_m)
 {
   const float fall_m = view.depthAt(next_column, next_row) - view.depthAt(column, row);
-  const int distance_px = std::max(std::abs(next_column - column), std::abs(next_row - row));
-  return isSteep(view, camera, fall_m, distance_px, slopeAt(view, camera, column, row), next_column,
-                 next_row, jump_m);
+  const auto distance_px =
+      static_cast<float>(std::max(std::abs(next_column - column), std::abs(next_row - row)));
+  const float slope_m =
+      std::max(slopeAt(view, camera, column, row), slopeAt(view, camera, next_column, next_row));
+  return fall_m > jump_m + kSlopeMargin * distance_px * slope_m;
 }
 
 std::vector<OutlinePoint> outlineOf(const RenderedPart& view, const PinholeCamera& camera,
