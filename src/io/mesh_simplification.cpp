@@ -114,8 +114,9 @@ private:
 
 TriangleMesh decimated(const TriangleMesh& mesh, std::size_t max_triangles)
 {
+  if (mesh.triangles.size() <= max_triangles) return mesh;
   const float diameter_m = meshDiameter(mesh);
-  if (mesh.triangles.size() <= max_triangles || !(diameter_m > 0)) return mesh;
+  if (!(diameter_m > 0)) return mesh;
   const float scale = kVtkDiameter / diameter_m;
   const vtkSmartPointer<vtkPolyData> surface = toVtk(mesh, scale);
   const auto decimation = vtkSmartPointer<vtkQuadricDecimation>::New();

@@ -99,7 +99,7 @@ TEST(SimplifiedMesh, ofFlatFacesIsSmallAndClosed)
   expectTheSameShape(simple, mesh);
 }
 
-/// A plate of 60 mm with an edge that a fin stands on, its sides a tenth of a millimetre apart.
+/// A plate of 0.2 mm, and a fin without thickness on one of its edges, which four triangles share.
 TEST(SimplifiedMesh, keepsThinWallsAndSharedEdges)
 {
   TriangleMesh mesh = boxMesh({0.06F, 0.06F, 0.0002F});
