@@ -131,20 +131,36 @@ std::vector<std::uint32_t> orderByCell(const std::vector<Cell>& cells)
     order[next[range.number(cells[i])]++] = static_cast<std::uint32_t>(i);
   return order;
 }
+
+/// The vertices that lie farthest in so many directions.
+std::vector<Eigen::Vector3f> extremeVertices(const TriangleMesh& mesh, int directions)
+{
+  const auto count = static_cast<Eigen::Index>(mesh.vertices.size());
+  const Eigen::ArrayX3f points =
+      Eigen::Map<const Eigen::Matrix3Xf>(mesh.vertices.front().data(), 3, count).transpose();
+  Eigen::ArrayXf height(count);
+  std::vector<Eigen::Vector3f> extremes;
+  for (int i = 0; i < directions; ++i)
+  {
+    const Eigen::Vector3f direction = evenDirection(i, directions);
+    height = points.col(0) * direction.x() +
+             (points.col(1) * direction.y() + points.col(2) * direction.z());
+    Eigen::Index farthest = 0;
+    height.maxCoeff(&farthest);
+    extremes.push_back(mesh.vertices[static_cast<std::size_t>(farthest)]);
+  }
+  return extremes;
+}
 }  // namespace
 
 float meshDiameter(const TriangleMesh& mesh)
 {
   constexpr int kDirections = 2000;
   std::vector<Eigen::Vector3f> extremes;
-  if (mesh.vertices.size() <= kDirections) extremes = mesh.vertices;
-  for (int i = 0; i < kDirections && mesh.vertices.size() > kDirections; ++i)
-  {
-    const Eigen::Vector3f direction = evenDirection(i, kDirections);
-    const auto farther = [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b)
-    { return a.dot(direction) < b.dot(direction); };
-    extremes.push_back(*std::max_element(mesh.vertices.begin(), mesh.vertices.end(), farther));
-  }
+  if (mesh.vertices.size() <= kDirections)
+    extremes = mesh.vertices;
+  else
+    extremes = extremeVertices(mesh, kDirections);
   float largest = 0;
   for (const Eigen::Vector3f& a : extremes)
     for (const Eigen::Vector3f& b : extremes)

@@ -5,6 +5,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellLocator.h>
+#include <vtkDecimatePro.h>
 #include <vtkGenericCell.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -23,11 +24,13 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr std::size_t kManyTriangles = 8000;  // up to these a mesh is used as it is
-constexpr std::size_t kFewTriangles = 2000;   // these are quick
-constexpr float kToleranceRel = 0.001F;       // of the diameter: a tenth of a pixel, about
-constexpr float kSpacingRel = 0.01F;          // of the samples between which distances are taken
+constexpr std::size_t kManyTriangles = 8000;   // up to these a mesh is used as it is
+constexpr std::size_t kFewTriangles = 2000;    // these are quick
+constexpr std::size_t kMostTriangles = 60000;  // that a simplified mesh is made of
+constexpr float kToleranceRel = 0.001F;        // of the diameter: a tenth of a pixel, about
+constexpr float kSpacingRel = 0.01F;           // of the samples between which distances are taken
 constexpr float kVtkDiameter = 100;  // in metres, VTK takes a small triangle for one without area
+constexpr double kFlatRel = 1e-6;    // of the diameter: flat but for rounding
 
 vtkSmartPointer<vtkPolyData> toVtk(const TriangleMesh& mesh, float scale)
 {
@@ -75,6 +78,50 @@ TriangleMesh fromVtk(vtkPolyData& surface, float scale)
   return mesh;
 }
 
+/// Takes the vertices away whose surroundings are flat. Edges between such are free, and collapsing
+/// them by the hundred thousand leaves vertices with very many others around, which takes long.
+vtkSmartPointer<vtkPolyData> withoutFlatVertices(vtkPolyData& surface)
+{
+  const auto decimation = vtkSmartPointer<vtkDecimatePro>::New();
+  decimation->SetInputData(&surface);
+  decimation->PreserveTopologyOn();
+  decimation->SetErrorIsAbsolute(1);
+  decimation->SetAbsoluteError(kVtkDiameter * kFlatRel * kVtkDiameter * kFlatRel);  // squared
+  decimation->SetTargetReduction(1);
+  decimation->Update();
+  const bool are_few = decimation->GetOutput()->GetNumberOfCells() > surface.GetNumberOfCells() / 2;
+  return are_few ? &surface : decimation->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> collapsed(vtkPolyData& surface, std::size_t max_triangles)
+{
+  const auto triangles = static_cast<double>(surface.GetNumberOfCells());
+  const auto decimation = vtkSmartPointer<vtkQuadricDecimation>::New();
+  decimation->SetInputData(&surface);
+  decimation->SetTargetReduction(std::max(0.0, 1 - static_cast<double>(max_triangles) / triangles));
+  decimation->Update();
+  return decimation->GetOutput();
+}
+
+bool isClosed(const TriangleMesh& mesh)
+{
+  return RenderableMesh(mesh).closed;
+}
+
+/// What the simplified meshes are made of: a surface of no more than 60000 triangles, whose edges
+/// are soon sorted, closed if the given one is.
+vtkSmartPointer<vtkPolyData> quickStart(vtkPolyData& surface, bool is_closed)
+{
+  const vtkSmartPointer<vtkPolyData> bent = withoutFlatVertices(surface);
+  vtkSmartPointer<vtkPolyData> start;
+  for (std::size_t count = kMostTriangles; count > kManyTriangles; count = count * 2 / 3)
+  {
+    start = collapsed(*bent, count);
+    if (isClosed(fromVtk(*start, 1)) == is_closed) break;
+  }
+  return start;
+}
+
 /// A mesh that others are compared with. It has triangles.
 class Surface
 {
@@ -118,29 +165,25 @@ TriangleMesh decimated(const TriangleMesh& mesh, std::size_t max_triangles)
   const float diameter_m = meshDiameter(mesh);
   if (!(diameter_m > 0)) return mesh;
   const float scale = kVtkDiameter / diameter_m;
-  const vtkSmartPointer<vtkPolyData> surface = toVtk(mesh, scale);
-  const auto decimation = vtkSmartPointer<vtkQuadricDecimation>::New();
-  decimation->SetInputData(surface);
-  decimation->SetTargetReduction(1 - static_cast<double>(max_triangles) /
-                                         static_cast<double>(mesh.triangles.size()));
-  decimation->Update();
-  return fromVtk(*decimation->GetOutput(), scale);
+  return fromVtk(*collapsed(*toVtk(mesh, scale), max_triangles), scale);
 }
 
 TriangleMesh simplifiedMesh(const TriangleMesh& mesh)
 {
   if (mesh.triangles.size() <= kManyTriangles) return mesh;
-  const std::size_t most = mesh.triangles.size() * 2 / 3;
   const float diameter_m = meshDiameter(mesh);
+  if (!(diameter_m > 0)) return mesh;
+  const float scale = kVtkDiameter / diameter_m;
   const float spacing_m = kSpacingRel * diameter_m;
   const double tolerance_m = kToleranceRel * diameter_m;
-  const bool is_closed = RenderableMesh(mesh).closed;
+  const bool is_closed = isClosed(mesh);
   Surface given(mesh, spacing_m);
+  const vtkSmartPointer<vtkPolyData> start = quickStart(*toVtk(mesh, scale), is_closed);
+  const std::size_t most = std::min(mesh.triangles.size() * 2 / 3, kMostTriangles);
   for (std::size_t count = kFewTriangles; count <= most; count = count * 3 / 2)
   {
-    TriangleMesh simple = decimated(mesh, count);
-    if (simple.triangles.empty() || simple.triangles.size() > most ||
-        RenderableMesh(simple).closed != is_closed)
+    TriangleMesh simple = fromVtk(*collapsed(*start, count), scale);
+    if (simple.triangles.empty() || simple.triangles.size() > most || isClosed(simple) != is_closed)
       continue;
     Surface surface(simple, spacing_m);
     if (given.isWithin(tolerance_m, surface) && surface.isWithin(tolerance_m, given)) return simple;
