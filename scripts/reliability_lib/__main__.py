@@ -10,10 +10,10 @@ from benchmark_lib.cases import all_parts
 from benchmark_lib.detection import write_configs
 from benchmark_lib.programs import BenchmarkError, provenance, run_script
 
-from .regression import fit, predict_left_out
 from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
 from .terms import SIGNS, code_of
 from .training import VARIANT, Plan, Training, collect
+from .usual import fit, predict_left_out, without_usual
 
 QUICK_PARTS = ("bolt", "box")
 QUICK_PLAN = {"seeds": (101,), "fills": (24,), "presets": ("industrial",)}
@@ -55,10 +55,13 @@ def fit_all(poses):
                 f"Without {part} all poses are right, or all wrong: take more parts."
             )
     weights = poses.weights()
-    model = fit(poses.terms, poses.labels, weights, SIGNS)
+    model = fit(poses.terms, poses.labels, weights, poses.scenes, SIGNS)
     right = poses.labels == 1
-    means = np.average(poses.terms[right], axis=0, weights=weights[right])
-    predicted = predict_left_out(poses.terms, poses.labels, weights, poses.parts, SIGNS)
+    beyond = without_usual(model, poses.terms, poses.scenes)
+    means = np.average(beyond[right], axis=0, weights=weights[right])
+    predicted = predict_left_out(
+        poses.terms, poses.labels, weights, poses.parts, poses.scenes, SIGNS
+    )
     return (model, means), predicted
 
 

@@ -53,16 +53,6 @@ def fit(terms, labels, sample_weights, signs):
     return Model(float(found.x[0] - weights @ mean), weights)
 
 
-def predict_left_out(terms, labels, sample_weights, groups, signs):
-    """Probability of each row by the model of all groups but its own."""
-    predicted = np.zeros(len(labels))
-    for group in sorted(set(groups)):
-        own = groups == group
-        model = fit(terms[~own], labels[~own], sample_weights[~own], signs)
-        predicted[own] = model.predict(terms[own])
-    return predicted
-
-
 def kept_and_precision(predicted, labels, threshold):
     """Of the right ones the share with at least this probability, and of those with it the right share; NaN: of none."""
     passed = predicted >= threshold

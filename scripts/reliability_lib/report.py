@@ -14,6 +14,7 @@ from benchmark_lib.report import number, table
 from .regression import PENALTY, kept_and_precision, reliability_bins
 from .terms import TERMS, code_of
 from .training import FOREIGN_SHIFTS, FOREIGN_WEIGHT, SETS
+from .usual import MOST_USUAL, TRUSTED, UNTOUCHED
 
 DEFAULT_THRESHOLD = yaml.safe_load((PACKAGE / "config/detector.yaml").read_text())[
     "min_reliability"
@@ -150,7 +151,7 @@ which makes the scenes, runs the detector, fits, prints the lines for `src/core/
 
 ## Scenes
 
-Parts {", ".join(plan.parts)}; seeds {", ".join(map(str, plan.seeds))}, {" and ".join(map(str, plan.fills))} parts in the bin, sensors
+Parts {", ".join(plan.parts)}; seeds {", ".join(map(str, plan.seeds))}, {", ".join(map(str, plan.fills))} parts in the bin, sensors
 {", ".join(plan.presets)}, all by `simulate_scene`.
 
 - **own**: the part's poses in its own scenes.
@@ -189,6 +190,10 @@ def write_page(facts, poses, fitted, predicted, drawn, picture):
 
 The negative log-likelihood plus {PENALTY / 2:g} times the squared weights of the standardised terms is least (L-BFGS-B), under the
 condition that no weight has the wrong sign: what speaks for a pose is not turned against it by chance. Intercept {model.intercept:.3f}.
+
+What is looked through counts beyond what is usual: sensors lose flanks and rims and show what lies behind them, at all parts of a scene alike. Of a pose
+it is the median over the scene's other poses with a probability of at least {TRUSTED} where nothing is usual, and over {UNTOUCHED} that nothing is looked through of, {MOST_USUAL} at most.
+The fit and what is usual by it are found in turn until neither changes.
 
 {term_table(model, means)}
 As lines of `src/core/reliability.cpp`:

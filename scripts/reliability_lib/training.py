@@ -14,7 +14,8 @@ from . import shiny
 from .terms import terms_of
 
 SEEDS = (101, 102)  # not the benchmark's
-FILLS = (24, 36)
+FILLS = (8, 24, 36)
+FOREIGN_FILL = 24
 SHINY_PRESETS = ("clean", "industrial")  # of low_cost hardly anything would be left
 # Places in the list of parts between the part looked for and the one that is there.
 FOREIGN_SHIFTS = (1, 3, 5, 8)
@@ -47,6 +48,7 @@ class Poses:
     labels: np.ndarray  # 1 right, 0 wrong
     parts: np.ndarray  # what was looked for
     sets: np.ndarray  # names
+    scenes: np.ndarray  # a number for each result
 
     def weights(self):
         """In the fit."""
@@ -104,6 +106,10 @@ class Plan:
     def shiny(self):
         return [ShinyScene(scene) for scene in self.plain() if scene.preset in SHINY_PRESETS]
 
+    def foreign_fill(self):
+        """Of the scenes of other parts."""
+        return FOREIGN_FILL if FOREIGN_FILL in self.fills else self.fills[0]
+
     def foreign(self):
         """Pairs of part and scene by the name of their set."""
         first, last = self.seeds[0], self.seeds[-1]
@@ -112,8 +118,8 @@ class Plan:
             for other in neighbours(self.parts, part):
                 for preset, seed in (("industrial", first), ("low_cost", last)):
                     if preset in self.presets:
-                        plain.append((part, Scene(other, self.fills[0], preset, seed)))
-                scene = Scene(other, self.fills[0], "industrial", last)
+                        plain.append((part, Scene(other, self.foreign_fill(), preset, seed)))
+                scene = Scene(other, self.foreign_fill(), "industrial", last)
                 copies.append((part, ShinyScene(scene)))
         return {"foreign": plain, "foreign, shiny": copies}
 
@@ -178,4 +184,5 @@ def collect(plan, bench):
         np.concatenate([labels for _, labels, _, _ in rows]),
         np.concatenate([[part] * len(labels) for _, labels, part, _ in rows]),
         np.concatenate([[name] * len(labels) for _, labels, _, name in rows]),
+        np.concatenate([[scene] * len(row[1]) for scene, row in enumerate(rows)]),
     )

@@ -95,6 +95,37 @@ std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfM
   return holds;
 }
 
+/// All that is known of each standing pose by itself and beside its rivals.
+/// @param shares  Of each standing pose; the whole cluster's of one that may slide through it.
+std::vector<DetectedPose> standingPoses(
+    const RangeImage& image, const std::vector<const PpfModel*>& models,
+    const DetectorConfig& config, const std::vector<Candidate>& candidates,
+    const std::vector<SelectedPose>& selected, const std::vector<Ambiguity>& ambiguities,
+    const DetectionResult& result, std::vector<ClusterShare>& shares)
+{
+  const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
+  std::vector<DetectedPose> poses;
+  for (std::size_t i = 0; i < selected.size(); ++i)
+  {
+    const Candidate& candidate = candidates[selected[i].candidate];
+    const PpfModel& model = *models[candidate.model];
+    DetectedPose pose =
+        poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
+    pose.slide_share = ambiguities[i].slide_share;
+    pose.goes_on = ambiguities[i].goes_on_px / candidate.evidence.edgesInSight();
+    pose.margin = ambiguities[i].margin;
+    pose.hold = holds[i];
+    if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
+    {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
+      const HypothesisCluster& cluster = result.clusters[static_cast<std::size_t>(pose.cluster)];
+      shares[i] = {cluster.box, cluster.hypotheses};
+    }
+    pose.spread = sideSum(shares[i].box) / model.diameter();
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
 /// Lets the reliable poses settle. The others stay as their regions show them.
 void settle(const RangeImage& image, const std::vector<const PpfModel*>& models,
             const DetectorConfig& config, std::vector<DetectedPose>& poses)
@@ -191,33 +222,22 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
                  const std::vector<SelectedPose>& selected, const RangeImage& image,
                  DetectionResult& result)
 {
-  const std::vector<ClusterShare> shares = sharesOf(models, candidates, selected, result);
+  std::vector<ClusterShare> shares = sharesOf(models, candidates, selected, result);
   const std::vector<Ambiguity> ambiguities =
       assessAmbiguity(models, config, candidates, selected, image.depth.size());
-  const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
+  result.poses =
+      standingPoses(image, models, config, candidates, selected, ambiguities, result, shares);
+  setUsualShares(result.poses);
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
-    const Candidate& candidate = candidates[selected[i].candidate];
-    const PpfModel& model = *models[candidate.model];
-    DetectedPose pose =
-        poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
-    pose.slide_share = ambiguities[i].slide_share;
-    pose.goes_on = ambiguities[i].goes_on_px / candidate.evidence.edgesInSight();
-    pose.margin = ambiguities[i].margin;
-    pose.hold = holds[i];
-    ClusterShare share = shares[i];
-    if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
-    {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
-      const HypothesisCluster& cluster = result.clusters[static_cast<std::size_t>(pose.cluster)];
-      share = {cluster.box, cluster.hypotheses};
-    }
-    pose.spread = sideSum(share.box) / model.diameter();
+    DetectedPose& pose = result.poses[i];
+    const PpfModel& model = *models[pose.model];
     pose.reliability = assessReliability(pose).probability;
-    const PoseVerdict verdict = verdictOf(pose, ambiguities[i].rivals_known, share, model, config);
+    const PoseVerdict verdict =
+        verdictOf(pose, ambiguities[i].rivals_known, shares[i], model, config);
     pose.reason = verdict.reason;
     pose.reliable = pose.reason == UnreliableReason::kNone;
-    if (!pose.reliable) result.regions.push_back(regionOf(pose, verdict, share, model));
-    result.poses.push_back(pose);
+    if (!pose.reliable) result.regions.push_back(regionOf(pose, verdict, shares[i], model));
   }
   settle(image, models, config, result.poses);
   addCovariances(image, models, config, result.poses);

@@ -41,10 +41,10 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
     case UnreliableReason::kOverlap:
       return "better poses explain " + percent(pose.claimed) + " of its surface";
     default:
-      return "the cloud lies behind " + percent(pose.looked_through) +
-             " of the surface and does not end at " + percent(pose.outline_broken) +
-             " of the edges, " + percent(pose.visible_fraction) + " is not hidden, " +
-             std::to_string(pose.confirmed_px) + " pixels confirm it";
+      return "the cloud lies behind " + percent(pose.looked_through) + " of the surface (" +
+             percent(pose.usual_looked_through) + " is usual here) and does not end at " +
+             percent(pose.outline_broken) + " of the edges, " + percent(pose.visible_fraction) +
+             " is not hidden, " + std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }
 
@@ -69,11 +69,11 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
             "the measured surface does not end at " + percent(pose.outline_broken) +
                 " of its edges (max_outline_broken " + percent(config.max_outline_broken) +
                 "), so that nothing ends where the part ends"};
-  if (pose.pierced > config.max_pierced)
-    return {UnreliableReason::kLowScore, "the measured surface passes through " +
-                                             percent(pose.pierced) + " of its edges (max_pierced " +
-                                             percent(config.max_pierced) +
-                                             "), so that it lies within something larger"};
+  if (pose.pierced - pose.usual_pierced > config.max_pierced)
+    return {UnreliableReason::kLowScore,
+            "the measured surface passes through " + percent(pose.pierced) + " of its edges (" +
+                percent(pose.usual_pierced) + " is usual here, max_pierced " +
+                percent(config.max_pierced) + " more), so that it lies within something larger"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
             rivalOf(pose) + " (min_margin " + percent(config.min_margin) + ")"};

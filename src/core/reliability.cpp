@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace ppf_bin_picking
 {
@@ -18,23 +19,28 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -0.679;
+constexpr double kIntercept = -0.860;
 
-std::array<Term, 11> termsOf(const DetectedPose& pose)
+// As in scripts/reliability_lib/usual.py: what is usual is fitted together with the weights.
+constexpr double kTrusted = 0.7;       // poses so probable show what is usual
+constexpr std::size_t kUntouched = 5;  // poses that nothing is looked through of count beside them
+constexpr double kMostUsual = 0.15;
+
+std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.183, 2.447, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.683, 0.453, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.526, -1.127, UnreliableReason::kSlippage},
-      {pose.slide_share, -0.806, 0.170, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -0.843, 0.191, UnreliableReason::kSpread},
-      {pose.looked_through, -21.366, 0.012, UnreliableReason::kLowScore},
-      {pose.outline_broken, -0.138, 0.159, UnreliableReason::kLowScore},
-      {pose.goes_on, -4.835, 0.042, UnreliableReason::kSlippage},
-      {pose.claimed, -16.535, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.340, 3.298, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.907, 0.781, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), 0.044, 2.466, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.739, 0.454, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.503, -1.112, UnreliableReason::kSlippage},
+      {pose.slide_share, -0.735, 0.170, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.358, 0.195, UnreliableReason::kSpread},
+      {std::max(pose.looked_through - pose.usual_looked_through, 0.0), -26.147, 0.006,
+       UnreliableReason::kLowScore},
+      {pose.goes_on, -5.272, 0.042, UnreliableReason::kSlippage},
+      {pose.claimed, -15.746, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.526, 3.322, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.310, 0.800, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace
@@ -54,5 +60,29 @@ Reliability assessReliability(const DetectedPose& pose)
   }
   reliability.probability = 1 / (1 + std::exp(-sum));
   return reliability;
+}
+
+void setUsualShares(std::vector<DetectedPose>& poses)
+{
+  std::vector<std::size_t> trusted;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    poses[i].usual_looked_through = poses[i].usual_pierced = 0;
+    if (assessReliability(poses[i]).probability >= kTrusted) trusted.push_back(i);
+  }
+  const auto usual = [&](std::size_t i, double DetectedPose::*share)
+  {
+    std::vector<double> shares(kUntouched, 0.0);
+    for (const std::size_t other : trusted)
+      if (other != i && poses[other].model == poses[i].model) shares.push_back(poses[other].*share);
+    const auto middle = shares.begin() + static_cast<std::ptrdiff_t>((shares.size() - 1) / 2);
+    std::nth_element(shares.begin(), middle, shares.end());
+    return std::min(*middle, kMostUsual);
+  };
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    poses[i].usual_looked_through = usual(i, &DetectedPose::looked_through);
+    poses[i].usual_pierced = usual(i, &DetectedPose::pierced);
+  }
 }
 }  // namespace ppf_bin_picking

@@ -62,8 +62,10 @@ json toJson(const DetectedPose& pose)
           {"support", pose.support},
           {"evidence_balance", pose.evidence_balance},
           {"looked_through", pose.looked_through},
+          {"usual_looked_through", pose.usual_looked_through},
           {"outline_broken", pose.outline_broken},
           {"pierced", pose.pierced},
+          {"usual_pierced", pose.usual_pierced},
           {"goes_on", pose.goes_on},
           {"claimed", pose.claimed},
           {"reliability", pose.reliability},
@@ -110,8 +112,10 @@ DetectedPose poseFrom(const json& item)
   pose.support = item.value("support", 0.0);
   pose.evidence_balance = item.value("evidence_balance", 0.0);
   pose.looked_through = item.value("looked_through", 0.0);
+  pose.usual_looked_through = item.value("usual_looked_through", 0.0);
   pose.outline_broken = item.value("outline_broken", 0.0);
   pose.pierced = item.value("pierced", 0.0);
+  pose.usual_pierced = item.value("usual_pierced", 0.0);
   pose.goes_on = item.value("goes_on", 0.0);
   pose.claimed = item.value("claimed", 0.0);
   pose.reliability = item.value("reliability", 0.0);

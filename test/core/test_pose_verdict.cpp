@@ -101,6 +101,21 @@ TEST_F(VerdictTest, toleratesWhatPassesThroughAsFarAsItIsTold)
   EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
 }
 
+TEST_F(VerdictTest, toleratesWhatPassesThroughOtherPosesAsWell)
+{
+  const auto pierced = [](DetectedPose& pose)
+  {
+    pose.pierced = 0.35;
+    pose.usual_pierced = 0.1;
+  };
+  const PoseVerdict passed = verdict(pierced);
+  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  config_.max_pierced = 0.2;
+  const PoseVerdict failed = verdict(pierced);
+  EXPECT_NE(failed.detail.find("35 % of its edges (10 % is usual here"), std::string::npos)
+      << failed.detail;
+}
+
 TEST_F(VerdictTest, namesNoGateThatIsOff)
 {
   config_.mismatch_test = false;

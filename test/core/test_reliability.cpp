@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <random>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -54,7 +57,6 @@ TEST(Reliability, fallsWithAllThatSpeaksAgainstAPose)
   EXPECT_LT(changed([](DetectedPose& pose) { pose.slide_share = 0.9; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.spread = 1.4; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.looked_through = 0.2; }), ordinary);
-  EXPECT_LT(changed([](DetectedPose& pose) { pose.outline_broken = 0.6; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.goes_on = 0.4; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.claimed = 0.2; }), ordinary);
   EXPECT_LT(changed([](DetectedPose& pose) { pose.confirmed_px = 100; }), ordinary);
@@ -83,6 +85,104 @@ TEST(Reliability, namesWhatPulledItDown)
   EXPECT_EQ(weakest([](DetectedPose& pose) { pose.claimed = 0.3; }), UnreliableReason::kOverlap);
   EXPECT_EQ(weakest([](DetectedPose& pose) { pose.looked_through = 0.3; }),
             UnreliableReason::kLowScore);
+}
+
+/// Ordinary poses, each looked through by so much, and pierced by half of it.
+std::vector<DetectedPose> posesWith(const std::vector<double>& shares)
+{
+  std::vector<DetectedPose> poses;
+  for (const double share : shares)
+  {
+    poses.push_back(ordinaryPose());
+    poses.back().looked_through = share;
+    poses.back().pierced = share / 2;
+  }
+  return poses;
+}
+
+TEST(UsualShares, isTheMedianOfTheOtherProbablePosesAndOfFiveUntouchedOnes)
+{
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<double> share(0, 0.12), margin(-0.2, 0.5);
+  for (int round = 0; round < 30; ++round)
+  {
+    std::vector<double> shares(static_cast<std::size_t>(round));
+    std::generate(shares.begin(), shares.end(), [&] { return share(rng); });
+    std::vector<DetectedPose> poses = posesWith(shares);
+    for (DetectedPose& pose : poses)
+      pose.margin = margin(rng);
+    setUsualShares(poses);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+    {
+      std::vector<double> known(5, 0.0);
+      for (std::size_t j = 0; j < poses.size(); ++j)
+      {
+        DetectedPose other = poses[j];
+        other.usual_looked_through = 0;
+        if (j != i && assessReliability(other).probability >= 0.7)
+          known.push_back(other.looked_through);
+      }
+      std::sort(known.begin(), known.end());
+      EXPECT_EQ(poses[i].usual_looked_through, known[(known.size() - 1) / 2]);
+      EXPECT_EQ(poses[i].usual_pierced, known[(known.size() - 1) / 2] / 2);
+    }
+  }
+}
+
+TEST(UsualShares, ofFewPosesIsNothing)
+{
+  std::vector<DetectedPose> poses = posesWith(std::vector<double>(6, 0.05));
+  setUsualShares(poses);
+  for (const DetectedPose& pose : poses)
+    EXPECT_EQ(pose.usual_looked_through, 0);
+}
+
+TEST(UsualShares, isNotLearnedFromDoubtfulPosesNorFromThoseOfAnotherPart)
+{
+  std::vector<DetectedPose> poses = posesWith(std::vector<double>(30, 0.05));
+  for (std::size_t i = 0; i < 15; ++i)
+    poses[i].margin = -0.2;
+  for (std::size_t i = 15; i < 30; ++i)
+    poses[i].model = 1;
+  setUsualShares(poses);
+  EXPECT_EQ(poses.front().usual_looked_through, 0);
+  EXPECT_EQ(poses.back().usual_looked_through, 0.05);
+}
+
+TEST(UsualShares, isNotHeldAgainstAPoseAndMoreIs)
+{
+  std::vector<DetectedPose> poses = posesWith(std::vector<double>(20, 0.06));
+  poses.push_back(posesWith({0.2}).front());
+  const double alone = assessReliability(poses.front()).probability;
+  setUsualShares(poses);
+  DetectedPose spotless = ordinaryPose();
+  spotless.looked_through = 0;
+  EXPECT_EQ(assessReliability(poses.front()).probability, assessReliability(spotless).probability);
+  EXPECT_GT(assessReliability(poses.front()).probability, alone);
+  EXPECT_LT(assessReliability(poses.back()).probability, 0.8);
+}
+
+TEST(UsualShares, excuseNoMoreThanThreeTwentieths)
+{
+  std::vector<DetectedPose> poses = posesWith(std::vector<double>(20, 0.2));
+  for (DetectedPose& pose : poses)
+  {
+    pose.margin = pose.hold = 0.6;  // trusted all the same
+    pose.pierced = 0.5;
+  }
+  setUsualShares(poses);
+  EXPECT_EQ(poses.front().usual_looked_through, 0.15);
+  EXPECT_EQ(poses.front().usual_pierced, 0.15);
+}
+
+TEST(UsualShares, whatWasWrittenBeforeIsNotBuiltOn)
+{
+  std::vector<DetectedPose> poses = posesWith(std::vector<double>(12, 0.1));
+  setUsualShares(poses);
+  const std::vector<DetectedPose> once = poses;
+  setUsualShares(poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    EXPECT_EQ(poses[i].usual_looked_through, once[i].usual_looked_through);
 }
 }  // namespace
 }  // namespace ppf_bin_picking

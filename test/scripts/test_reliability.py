@@ -13,7 +13,7 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 
 from benchmark_lib.cases import Scene  # after the path that it is found on
 from benchmark_lib.programs import BenchmarkError
-from reliability_lib import regression, shiny, terms, training
+from reliability_lib import regression, shiny, terms, training, usual
 
 
 def known_problem(rows=40000, seed=3):
@@ -71,14 +71,74 @@ class FitTest(unittest.TestCase):
         self.assertEqual(regression.fit(drawn, labels, np.ones(300), (1, 1)).weights[1], 0)
 
 
+def scenes_of_a_sensor(scenes=60, seed=5):
+    """Terms of scenes of ten poses, half of them right. What is looked through of a wrong pose is a tenth more than of a
+    right one, and of all poses of every other scene a further tenth. All else says nothing. Returns terms, labels, scenes.
+    """
+    rng = np.random.default_rng(seed)
+    drawn = rng.normal(0, 0.02, (10 * scenes, len(terms.TERMS)))
+    labels = np.tile(np.repeat([1.0, 0.0], 5), scenes)
+    numbers = np.repeat(np.arange(scenes), 10)
+    shares = 0.02 + 0.1 * (1 - labels) + 0.1 * (numbers % 2)
+    drawn[:, usual.LOOKED_THROUGH] = shares + rng.normal(0, 0.02, len(shares))
+    return drawn, labels, numbers
+
+
+class UsualTest(unittest.TestCase):
+    def test_is_the_median_of_the_other_trusted_poses_and_of_five_untouched_ones(self):
+        shares = np.array([0.3, 0.1, 0.2, 0.1, 0.12, 0.14, 0.16, 0.9])
+        trusted = np.array([1, 1, 1, 1, 1, 1, 1, 0], bool)
+        found = usual.usual_shares(shares, trusted)
+        for i, share in enumerate(found):
+            known = sorted([shares[k] for k in range(7) if k != i] + 5 * [0])
+            self.assertEqual(share, known[(len(known) - 1) // 2])
+        self.assertEqual(found[7], 0.1)
+
+    def test_of_few_poses_is_nothing(self):
+        np.testing.assert_array_equal(usual.usual_shares(np.full(6, 0.1), np.ones(6, bool)), 0)
+
+    def test_scenes_do_not_mix_and_other_terms_stay(self):
+        drawn, _, numbers = scenes_of_a_sensor()
+        model = regression.Model(5.0, np.zeros(drawn.shape[1]))  # trusts all
+        beyond = usual.without_usual(model, drawn, numbers)
+        column = usual.LOOKED_THROUGH
+        np.testing.assert_array_equal(
+            np.delete(beyond, column, axis=1), np.delete(drawn, column, axis=1)
+        )
+        alone = usual.without_usual(model, drawn[:10], numbers[:10])
+        np.testing.assert_array_equal(beyond[:10], alone)
+        self.assertLess(beyond[10:20, column].mean(), drawn[10:20, column].mean() - 0.05)
+
+    def test_more_than_the_most_is_held_against_a_pose(self):
+        drawn = np.zeros((20, len(terms.TERMS)))
+        drawn[:, usual.LOOKED_THROUGH] = 0.4
+        model = regression.Model(5.0, np.zeros(drawn.shape[1]))
+        beyond = usual.without_usual(model, drawn, np.zeros(20))
+        np.testing.assert_allclose(beyond[:, usual.LOOKED_THROUGH], 0.4 - usual.MOST_USUAL)
+
+    def test_the_fit_weighs_what_is_beyond_and_predicts_better(self):
+        drawn, labels, numbers = scenes_of_a_sensor()
+        # the right ones are told apart by another term as well, or nobody would be trusted in every other scene
+        drawn[:, 1] += labels
+        weights = np.ones(len(labels))
+        plain = regression.fit(drawn, labels, weights, terms.SIGNS)
+        model = usual.fit(drawn, labels, weights, numbers, terms.SIGNS)
+        column = usual.LOOKED_THROUGH
+        self.assertLess(model.weights[column], plain.weights[column])
+        beyond = usual.without_usual(model, drawn, numbers)
+        again = regression.fit(beyond, labels, weights, terms.SIGNS)
+        np.testing.assert_allclose(again.weights, model.weights, rtol=0.01, atol=0.01)
+
+
 class LeftOutTest(unittest.TestCase):
     def test_what_is_predicted_of_a_group_ignores_its_own_labels(self):
-        drawn, labels = known_problem(rows=600)
-        groups = np.repeat(["a", "b", "c"], 200)
-        weights = np.ones(600)
-        before = regression.predict_left_out(drawn, labels, weights, groups, (1, -1))
+        drawn, labels, numbers = scenes_of_a_sensor()
+        groups = np.array(["a", "b", "c"])[numbers % 3]
+        weights = np.ones(len(labels))
+        given = (weights, groups, numbers, terms.SIGNS)
+        before = usual.predict_left_out(drawn, labels, *given)
         labels[groups == "b"] = 1 - labels[groups == "b"]
-        after = regression.predict_left_out(drawn, labels, weights, groups, (1, -1))
+        after = usual.predict_left_out(drawn, labels, *given)
         np.testing.assert_array_equal(before[groups == "b"], after[groups == "b"])
         self.assertGreater(np.abs(before - after)[groups == "a"].max(), 0.01)
 
@@ -205,8 +265,8 @@ class TrainingTest(unittest.TestCase):
 
     def test_copies_are_made_of_the_cleaner_sensors(self):
         plan = training.Plan(("a",))
-        self.assertEqual(len(plan.plain()), 12)
-        self.assertEqual(len(plan.shiny()), 8)
+        self.assertEqual(len(plan.plain()), 18)
+        self.assertEqual(len(plan.shiny()), 12)
         self.assertEqual(
             training.ShinyScene(Scene("a", 24, "clean", 101)).name, "shiny-clean-24-101"
         )
@@ -224,7 +284,7 @@ class TrainingTest(unittest.TestCase):
 
     def test_foreign_poses_weigh_less(self):
         sets = np.array(["own", "shiny", "foreign", "foreign, shiny"])
-        poses = training.Poses(np.zeros((4, 9)), np.zeros(4), sets, sets)
+        poses = training.Poses(np.zeros((4, 9)), np.zeros(4), sets, sets, np.zeros(4))
         np.testing.assert_array_equal(poses.weights(), [1, 1, 0.2, 0.2])
 
 
@@ -236,7 +296,6 @@ class TermsTest(unittest.TestCase):
         "slide_share": 0.7,
         "spread": 0.4,
         "looked_through": 0.02,
-        "outline_broken": 0.1,
         "goes_on": 0.05,
         "claimed": 0.03,
         "confirmed_px": 1000,
@@ -246,15 +305,15 @@ class TermsTest(unittest.TestCase):
     def test_values_are_those_of_the_result_in_their_scales(self):
         row = terms.terms_of([self.POSE], "here")[0]
         np.testing.assert_allclose(
-            row, [0, 0.3, -2, 0.7, 0.4, 0.02, 0.1, 0.05, 0.03, 3, 0.6], atol=1e-12
+            row, [0, 0.3, -2, 0.7, 0.4, 0.02, 0.05, 0.03, 3, 0.6], atol=1e-12
         )
 
     def test_extremes_are_clamped(self):
         low = {**self.POSE, "score": 0, "margin": -1, "hold": 0, "confirmed_px": 0}
         high = {**self.POSE, "score": 1, "margin": 1, "spread": 9, "visible_fraction": 1.5}
         low_row, high_row = terms.terms_of([low, high], "here")
-        np.testing.assert_allclose(low_row[[0, 1, 2, 9]], [-np.log(4), -0.2, -3, np.log10(30)])
-        np.testing.assert_allclose(high_row[[0, 1, 4, 10]], [np.log(49), 0.5, 2, 1])
+        np.testing.assert_allclose(low_row[[0, 1, 2, 8]], [-np.log(4), -0.2, -3, np.log10(30)])
+        np.testing.assert_allclose(high_row[[0, 1, 4, 9]], [np.log(49), 0.5, 2, 1])
 
     def test_a_pose_without_a_value_is_refused_with_its_name_and_place(self):
         pose = {**self.POSE, "claimed": None}

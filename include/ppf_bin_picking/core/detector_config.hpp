@@ -63,7 +63,8 @@ struct DetectorConfig
   double max_slide_share = 0.85;
   double firm_hold = 0.07;          ///< From this hold on a pose is not held loosely. >= 0.
   double max_outline_broken = 0.7;  ///< Largest broken share of the edges in sight. [0, 1].
-  double max_pierced = 0.3;      ///< Largest share of these that the cloud passes through. [0, 1].
+  /// Largest share of these that the cloud passes through, beyond the usual one. [0, 1].
+  double max_pierced = 0.3;
   double min_margin = 0.05;      ///< Least lead over the best other pose there. [-1, 1].
   double min_reliability = 0.9;  ///< Least probability that a pose is right. [0, 1].
 
