@@ -55,12 +55,12 @@ def fit_all(poses):
                 f"Without {part} all poses are right, or all wrong: take more parts."
             )
     weights = poses.weights()
-    model = fit(poses.terms, poses.labels, weights, poses.scenes, SIGNS)
+    model = fit(poses.terms, poses.labels, weights, poses.gates, poses.scenes, SIGNS)
     right = poses.labels == 1
-    beyond = without_usual(model, poses.terms, poses.scenes)
+    beyond = without_usual(model, poses.terms, poses.gates, poses.scenes)
     means = np.average(beyond[right], axis=0, weights=weights[right])
     predicted = predict_left_out(
-        poses.terms, poses.labels, weights, poses.parts, poses.scenes, SIGNS
+        poses.terms, poses.labels, weights, poses.parts, poses.gates, poses.scenes, SIGNS
     )
     return (model, means), predicted
 

@@ -14,7 +14,7 @@ from benchmark_lib.report import number, table
 from .regression import PENALTY, kept_and_precision, reliability_bins
 from .terms import TERMS, code_of
 from .training import FOREIGN_SHIFTS, FOREIGN_WEIGHT, SETS
-from .usual import MOST_USUAL, TRUSTED, UNTOUCHED
+from .usual import MAX_ROUNDS, MOST_USUAL, SHOWS_USUAL, ZEROS
 
 DEFAULT_THRESHOLD = yaml.safe_load((PACKAGE / "config/detector.yaml").read_text())[
     "min_reliability"
@@ -158,7 +158,7 @@ Parts {", ".join(plan.parts)}; seeds {", ".join(map(str, plan.seeds))}, {", ".jo
 - **shiny**: the same in copies of the scenes of the cleaner sensors in which slanted surfaces and outlines are lost, as they are
   where shiny parts mirror the light away. In some regions the surface behind shows through, as in depth images
   aligned to another camera (`scripts/reliability_lib/shiny.py`).
-- **foreign**: poses of each part in scenes of other parts, those {", ".join(map(str, FOREIGN_SHIFTS))} places further in the list; all of
+- **foreign**: poses of each part in scenes of {plan.foreign_fill()} other parts, those {", ".join(map(str, FOREIGN_SHIFTS))} places further in the list; all of
   them are wrong. They weigh {FOREIGN_WEIGHT}, as a bin rarely holds other parts.
 """
 
@@ -192,8 +192,8 @@ The negative log-likelihood plus {PENALTY / 2:g} times the squared weights of th
 condition that no weight has the wrong sign: what speaks for a pose is not turned against it by chance. Intercept {model.intercept:.3f}.
 
 What is looked through counts beyond what is usual: sensors lose flanks and rims and show what lies behind them, at all parts of a scene alike. Of a pose
-it is the median over the scene's other poses with a probability of at least {TRUSTED} where nothing is usual, and over {UNTOUCHED} that nothing is looked through of, {MOST_USUAL} at most.
-The fit and what is usual by it are found in turn until neither changes.
+it is the median over the scene's other poses that pass all gates with a probability of at least {SHOWS_USUAL} while nothing is usual, and over {ZEROS} zeros; {MOST_USUAL} at most.
+The fit and what is usual by it are found in turn, until the weights stay or {MAX_ROUNDS} times.
 
 {term_table(model, means)}
 As lines of `src/core/reliability.cpp`:

@@ -1,7 +1,7 @@
 """What the fit learns from: scenes, shiny copies of them, and the poses found in them, right or wrong."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ from benchmark_lib.programs import Progress, digest, once
 
 from . import shiny
 from .terms import terms_of
+from .usual import passes_gates
 
 SEEDS = (101, 102)  # not the benchmark's
 FILLS = (8, 24, 36)
@@ -48,6 +49,7 @@ class Poses:
     labels: np.ndarray  # 1 right, 0 wrong
     parts: np.ndarray  # what was looked for
     sets: np.ndarray  # names
+    gates: np.ndarray  # whether it passes them while nothing is usual
     scenes: np.ndarray  # a number for each result
 
     def weights(self):
@@ -145,8 +147,15 @@ def labels_of(judged_poses, count, threshold):
     return labels
 
 
+def judged_poses(terms, labels, part, poses):
+    """Of the poses of one result; the scene's number comes later."""
+    count = len(labels)
+    gates = np.array([passes_gates(pose) for pose in poses], bool)
+    return Poses(terms, labels, np.full(count, part), np.full(count, ""), gates, np.zeros(count))
+
+
 def own_poses(bench, name, scenes):
-    """Terms, labels and parts of each scene's own part, judged by evaluate_poses."""
+    """The poses of each scene's own part, judged by evaluate_poses."""
     judged = bench.evaluate(name, VARIANT, scenes)
     verdicts = {
         (part, scene["scene"]): scene["poses"]
@@ -156,14 +165,24 @@ def own_poses(bench, name, scenes):
     for scene in scenes:
         poses, terms = bench.found(scene)
         labels = labels_of(verdicts[scene.part, scene.name], len(poses), judged["threshold"])
-        yield terms, labels, scene.part
+        yield judged_poses(terms, labels, scene.part, poses)
 
 
 def foreign_poses(bench, pairs):
     """The same of parts that are not there: all wrong."""
     for part, scene in pairs:
         poses, terms = bench.found(scene, part)
-        yield terms, np.zeros(len(poses)), part
+        yield judged_poses(terms, np.zeros(len(poses)), part, poses)
+
+
+def joined(found):
+    """One set of all. found: a list of results' poses by the name of their set."""
+    results = [(name, poses) for name, listed in found.items() for poses in listed]
+    for scene, (name, poses) in enumerate(results):
+        poses.sets = np.full(len(poses.labels), name)
+        poses.scenes = np.full(len(poses.labels), scene)
+    columns = [[getattr(poses, field.name) for _, poses in results] for field in fields(Poses)]
+    return Poses(*map(np.concatenate, columns))
 
 
 def collect(plan, bench):
@@ -178,11 +197,4 @@ def collect(plan, bench):
         "shiny": list(own_poses(bench, "shiny", copies)),
         **{name: list(foreign_poses(bench, pairs)) for name, pairs in foreign.items()},
     }
-    rows = [(*item, name) for name, items in found.items() for item in items]
-    return Poses(
-        np.concatenate([terms for terms, _, _, _ in rows]),
-        np.concatenate([labels for _, labels, _, _ in rows]),
-        np.concatenate([[part] * len(labels) for _, labels, part, _ in rows]),
-        np.concatenate([[name] * len(labels) for _, labels, _, name in rows]),
-        np.concatenate([[scene] * len(row[1]) for scene, row in enumerate(rows)]),
-    )
+    return joined(found)

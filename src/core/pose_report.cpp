@@ -96,34 +96,81 @@ std::vector<float> holdsOf(const RangeImage& image, const std::vector<const PpfM
 }
 
 /// All that is known of each standing pose by itself and beside its rivals.
-/// @param shares  Of each standing pose; the whole cluster's of one that may slide through it.
-std::vector<DetectedPose> standingPoses(
-    const RangeImage& image, const std::vector<const PpfModel*>& models,
-    const DetectorConfig& config, const std::vector<Candidate>& candidates,
-    const std::vector<SelectedPose>& selected, const std::vector<Ambiguity>& ambiguities,
-    const DetectionResult& result, std::vector<ClusterShare>& shares)
+std::vector<DetectedPose> standingPoses(const std::vector<const PpfModel*>& models,
+                                        const std::vector<Candidate>& candidates,
+                                        const std::vector<SelectedPose>& selected,
+                                        const std::vector<Ambiguity>& ambiguities,
+                                        const std::vector<float>& holds)
 {
-  const std::vector<float> holds = holdsOf(image, models, config, candidates, selected);
   std::vector<DetectedPose> poses;
   for (std::size_t i = 0; i < selected.size(); ++i)
   {
     const Candidate& candidate = candidates[selected[i].candidate];
-    const PpfModel& model = *models[candidate.model];
-    DetectedPose pose =
-        poseOfCandidate(candidate, model, selected[i].confirmed, selected[i].balance);
+    DetectedPose pose = poseOfCandidate(candidate, *models[candidate.model], selected[i].confirmed,
+                                        selected[i].balance);
     pose.slide_share = ambiguities[i].slide_share;
     pose.goes_on = ambiguities[i].goes_on_px / candidate.evidence.edgesInSight();
     pose.margin = ambiguities[i].margin;
     pose.hold = holds[i];
-    if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
-    {  // its outline lets it slide, so the whole of its cluster may be one pose sliding
-      const HypothesisCluster& cluster = result.clusters[static_cast<std::size_t>(pose.cluster)];
-      shares[i] = {cluster.box, cluster.hypotheses};
-    }
-    pose.spread = sideSum(shares[i].box) / model.diameter();
     poses.push_back(pose);
   }
   return poses;
+}
+
+/// Writes how far the hypotheses of each pose spread: all of its cluster's if its outline lets it
+/// slide, as the whole cluster may be one pose sliding then, else its share of them.
+void addSpreads(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
+                const std::vector<HypothesisCluster>& clusters, std::vector<ClusterShare>& shares,
+                std::vector<DetectedPose>& poses)
+{
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    DetectedPose& pose = poses[i];
+    if (pose.cluster >= 0 && pose.slide_share > config.max_slide_share)
+    {
+      const HypothesisCluster& cluster = clusters[static_cast<std::size_t>(pose.cluster)];
+      shares[i] = {cluster.box, cluster.hypotheses};
+    }
+    pose.spread = sideSum(shares[i].box) / models[pose.model]->diameter();
+  }
+}
+
+/// Takes the standing poses through the gates, each with the reliability already written.
+std::vector<PoseVerdict> verdictsOf(const std::vector<const PpfModel*>& models,
+                                    const DetectorConfig& config,
+                                    const std::vector<Ambiguity>& ambiguities,
+                                    const std::vector<ClusterShare>& shares,
+                                    const std::vector<DetectedPose>& poses)
+{
+  std::vector<PoseVerdict> verdicts;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    verdicts.push_back(verdictOf(poses[i], ambiguities[i].rivals_known, shares[i],
+                                 *models[poses[i].model], config));
+  return verdicts;
+}
+
+void addReliabilities(std::vector<DetectedPose>& poses)
+{
+  for (DetectedPose& pose : poses)
+    pose.reliability = assessReliability(pose).probability;
+}
+
+/// Judges the standing poses: first as if nothing were usual, then by what those show that pass so.
+std::vector<PoseVerdict> judge(const std::vector<const PpfModel*>& models,
+                               const DetectorConfig& config,
+                               const std::vector<Ambiguity>& ambiguities,
+                               const std::vector<ClusterShare>& shares,
+                               std::vector<DetectedPose>& poses)
+{
+  DetectorConfig showing = config;
+  showing.min_reliability = kShowsUsual;
+  addReliabilities(poses);
+  std::vector<bool> shows;
+  for (const PoseVerdict& verdict : verdictsOf(models, showing, ambiguities, shares, poses))
+    shows.push_back(verdict.reason == UnreliableReason::kNone);
+  setUsualShares(shows, poses);
+  addReliabilities(poses);
+  return verdictsOf(models, config, ambiguities, shares, poses);
 }
 
 /// Lets the reliable poses settle. The others stay as their regions show them.
@@ -225,19 +272,18 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
   std::vector<ClusterShare> shares = sharesOf(models, candidates, selected, result);
   const std::vector<Ambiguity> ambiguities =
       assessAmbiguity(models, config, candidates, selected, image.depth.size());
-  result.poses =
-      standingPoses(image, models, config, candidates, selected, ambiguities, result, shares);
-  setUsualShares(result.poses);
-  for (std::size_t i = 0; i < selected.size(); ++i)
+  result.poses = standingPoses(models, candidates, selected, ambiguities,
+                               holdsOf(image, models, config, candidates, selected));
+  addSpreads(models, config, result.clusters, shares, result.poses);
+  const std::vector<PoseVerdict> verdicts =
+      judge(models, config, ambiguities, shares, result.poses);
+  for (std::size_t i = 0; i < result.poses.size(); ++i)
   {
     DetectedPose& pose = result.poses[i];
-    const PpfModel& model = *models[pose.model];
-    pose.reliability = assessReliability(pose).probability;
-    const PoseVerdict verdict =
-        verdictOf(pose, ambiguities[i].rivals_known, shares[i], model, config);
-    pose.reason = verdict.reason;
+    pose.reason = verdicts[i].reason;
     pose.reliable = pose.reason == UnreliableReason::kNone;
-    if (!pose.reliable) result.regions.push_back(regionOf(pose, verdict, shares[i], model));
+    if (!pose.reliable)
+      result.regions.push_back(regionOf(pose, verdicts[i], shares[i], *models[pose.model]));
   }
   settle(image, models, config, result.poses);
   addCovariances(image, models, config, result.poses);

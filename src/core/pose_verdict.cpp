@@ -24,6 +24,12 @@ std::string rivalOf(const DetectedPose& pose)
              : words + "almost as well, with " + percent(pose.margin) + " less evidence";
 }
 
+/// " (7 % is usual here)" of a share of which some is, or nothing.
+std::string usualShare(double usual)
+{
+  return usual > 0 ? " (" + percent(usual) + " is usual here)" : "";
+}
+
 /// What pulled the reliability down.
 std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
 {
@@ -41,9 +47,8 @@ std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
     case UnreliableReason::kOverlap:
       return "better poses explain " + percent(pose.claimed) + " of its surface";
     default:
-      return "the cloud lies behind " + percent(pose.looked_through) + " of the surface (" +
-             percent(pose.usual_looked_through) + " is usual here) and does not end at " +
-             percent(pose.outline_broken) + " of the edges, " + percent(pose.visible_fraction) +
+      return "the cloud lies behind " + percent(pose.looked_through) + " of the surface" +
+             usualShare(pose.usual_looked_through) + ", " + percent(pose.visible_fraction) +
              " is not hidden, " + std::to_string(pose.confirmed_px) + " pixels confirm it";
   }
 }
@@ -71,9 +76,9 @@ PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share
                 "), so that nothing ends where the part ends"};
   if (pose.pierced - pose.usual_pierced > config.max_pierced)
     return {UnreliableReason::kLowScore,
-            "the measured surface passes through " + percent(pose.pierced) + " of its edges (" +
-                percent(pose.usual_pierced) + " is usual here, max_pierced " +
-                percent(config.max_pierced) + " more), so that it lies within something larger"};
+            "the measured surface passes through " + percent(pose.pierced) + " of its edges" +
+                usualShare(pose.usual_pierced) + ", more than max_pierced allows (" +
+                percent(config.max_pierced) + "), so that it lies within something larger"};
   if (pose.margin < config.min_margin)
     return {UnreliableReason::kRunnerUp,
             rivalOf(pose) + " (min_margin " + percent(config.min_margin) + ")"};

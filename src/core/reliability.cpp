@@ -19,28 +19,27 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -0.860;
+constexpr double kIntercept = -0.794;
 
 // As in scripts/reliability_lib/usual.py: what is usual is fitted together with the weights.
-constexpr double kTrusted = 0.7;       // poses so probable show what is usual
-constexpr std::size_t kUntouched = 5;  // poses that nothing is looked through of count beside them
-constexpr double kMostUsual = 0.15;
+constexpr std::size_t kZeros = 5;  // beside the poses that show what is usual
+constexpr double kMostUsual = 0.1;
 
 std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.044, 2.466, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.739, 0.454, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.503, -1.112, UnreliableReason::kSlippage},
-      {pose.slide_share, -0.735, 0.170, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -0.358, 0.195, UnreliableReason::kSpread},
-      {std::max(pose.looked_through - pose.usual_looked_through, 0.0), -26.147, 0.006,
+      {std::log(score / (1 - score)), 0.031, 2.466, UnreliableReason::kLowScore},
+      {std::clamp(pose.margin, -0.2, 0.5), 5.802, 0.454, UnreliableReason::kRunnerUp},
+      {std::log10(std::max(pose.hold, 0.001)), 2.532, -1.112, UnreliableReason::kSlippage},
+      {pose.slide_share, -0.662, 0.170, UnreliableReason::kSlippage},
+      {std::min(pose.spread, 2.0), -0.334, 0.195, UnreliableReason::kSpread},
+      {std::max(pose.looked_through - pose.usual_looked_through, 0.0), -26.058, 0.008,
        UnreliableReason::kLowScore},
-      {pose.goes_on, -5.272, 0.042, UnreliableReason::kSlippage},
-      {pose.claimed, -15.746, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.526, 3.322, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.310, 0.800, UnreliableReason::kLowScore},
+      {pose.goes_on, -5.454, 0.042, UnreliableReason::kSlippage},
+      {pose.claimed, -15.854, 0.001, UnreliableReason::kOverlap},
+      {std::log10(std::max(pose.confirmed_px, 30)), 1.522, 3.322, UnreliableReason::kLowScore},
+      {std::min(pose.visible_fraction, 1.0), 1.325, 0.800, UnreliableReason::kLowScore},
   }};
 }
 }  // namespace
@@ -62,19 +61,14 @@ Reliability assessReliability(const DetectedPose& pose)
   return reliability;
 }
 
-void setUsualShares(std::vector<DetectedPose>& poses)
+void setUsualShares(const std::vector<bool>& shows, std::vector<DetectedPose>& poses)
 {
-  std::vector<std::size_t> trusted;
-  for (std::size_t i = 0; i < poses.size(); ++i)
+  const auto usual = [&](std::size_t pose, double DetectedPose::*share)
   {
-    poses[i].usual_looked_through = poses[i].usual_pierced = 0;
-    if (assessReliability(poses[i]).probability >= kTrusted) trusted.push_back(i);
-  }
-  const auto usual = [&](std::size_t i, double DetectedPose::*share)
-  {
-    std::vector<double> shares(kUntouched, 0.0);
-    for (const std::size_t other : trusted)
-      if (other != i && poses[other].model == poses[i].model) shares.push_back(poses[other].*share);
+    std::vector<double> shares(kZeros, 0.0);
+    for (std::size_t other = 0; other < poses.size(); ++other)
+      if (shows[other] && other != pose && poses[other].model == poses[pose].model)
+        shares.push_back(poses[other].*share);
     const auto middle = shares.begin() + static_cast<std::ptrdiff_t>((shares.size() - 1) / 2);
     std::nth_element(shares.begin(), middle, shares.end());
     return std::min(*middle, kMostUsual);

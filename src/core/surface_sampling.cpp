@@ -143,6 +143,7 @@ std::vector<Eigen::Vector3f> extremeVertices(const TriangleMesh& mesh, int direc
   for (int i = 0; i < directions; ++i)
   {
     const Eigen::Vector3f direction = evenDirection(i, directions);
+    // with the brackets, rounded as vertex.dot(direction) is
     height = points.col(0) * direction.x() +
              (points.col(1) * direction.y() + points.col(2) * direction.z());
     Eigen::Index farthest = 0;

@@ -86,11 +86,10 @@ vtkSmartPointer<vtkPolyData> withoutFlatVertices(vtkPolyData& surface)
   decimation->SetInputData(&surface);
   decimation->PreserveTopologyOn();
   decimation->SetErrorIsAbsolute(1);
-  decimation->SetAbsoluteError(kVtkDiameter * kFlatRel * kVtkDiameter * kFlatRel);  // squared
+  decimation->SetAbsoluteError(std::pow(kVtkDiameter * kFlatRel, 2));  // VTK's is squared
   decimation->SetTargetReduction(1);
   decimation->Update();
-  const bool are_few = decimation->GetOutput()->GetNumberOfCells() > surface.GetNumberOfCells() / 2;
-  return are_few ? &surface : decimation->GetOutput();
+  return decimation->GetOutput();
 }
 
 vtkSmartPointer<vtkPolyData> collapsed(vtkPolyData& surface, std::size_t max_triangles)
@@ -112,12 +111,15 @@ bool isClosed(const TriangleMesh& mesh)
 /// are soon sorted, closed if the given one is.
 vtkSmartPointer<vtkPolyData> quickStart(vtkPolyData& surface, bool is_closed)
 {
-  const vtkSmartPointer<vtkPolyData> bent = withoutFlatVertices(surface);
+  const auto stays = [&](vtkPolyData& other) { return isClosed(fromVtk(other, 1)) == is_closed; };
+  vtkSmartPointer<vtkPolyData> bent = withoutFlatVertices(surface);
+  const bool few_are_flat = bent->GetNumberOfCells() > surface.GetNumberOfCells() / 2;
+  if (few_are_flat || !stays(*bent)) bent = &surface;
   vtkSmartPointer<vtkPolyData> start;
   for (std::size_t count = kMostTriangles; count > kManyTriangles; count = count * 2 / 3)
   {
     start = collapsed(*bent, count);
-    if (isClosed(fromVtk(*start, 1)) == is_closed) break;
+    if (stays(*start)) break;
   }
   return start;
 }
@@ -179,9 +181,12 @@ TriangleMesh simplifiedMesh(const TriangleMesh& mesh)
   const bool is_closed = isClosed(mesh);
   Surface given(mesh, spacing_m);
   const vtkSmartPointer<vtkPolyData> start = quickStart(*toVtk(mesh, scale), is_closed);
-  const std::size_t most = std::min(mesh.triangles.size() * 2 / 3, kMostTriangles);
-  for (std::size_t count = kFewTriangles; count <= most; count = count * 3 / 2)
+  const auto made_of = static_cast<std::size_t>(start->GetNumberOfCells());
+  const std::size_t most = mesh.triangles.size() * 2 / 3;
+  std::size_t tried = 0;
+  for (std::size_t count = kFewTriangles; count <= most && tried < made_of; count = count * 3 / 2)
   {
+    tried = count;
     TriangleMesh simple = fromVtk(*collapsed(*start, count), scale);
     if (simple.triangles.empty() || simple.triangles.size() > most || isClosed(simple) != is_closed)
       continue;

@@ -8,6 +8,7 @@ set(core_tests
     test_detector
     test_detector_config
     test_detector_refusals
+    test_detector_usual
     test_evidence_climb
     test_kernels
     test_look_alikes

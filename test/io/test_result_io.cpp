@@ -30,6 +30,10 @@ ResultFile example()
   pose.votes = 123.5;
   pose.visible_fraction = 0.75;
   pose.rms_error_m = 0.0003;
+  pose.looked_through = 0.07;
+  pose.usual_looked_through = 0.05;
+  pose.pierced = 0.2;
+  pose.usual_pierced = 0.1;
   pose.reliable = true;
   result.poses.push_back(pose);
   pose.reliable = false;
@@ -75,6 +79,8 @@ TEST(Result, hasTheFieldsThatOthersReadFromIt)
   EXPECT_EQ(root["poses"][0]["reason"], "");
   EXPECT_EQ(pose["visible_fraction"], 0.75);
   EXPECT_EQ(pose["rms_error"], 0.0003);
+  EXPECT_EQ(pose["usual_looked_through"], 0.05);
+  EXPECT_EQ(pose["usual_pierced"], 0.1);
   ASSERT_EQ(root["regions"].size(), 1U);
   EXPECT_EQ(root["regions"][0]["size"], (std::vector<double>{0.3, 0.2, 0.1}));
   EXPECT_EQ(root["regions"][0]["reason"], "SPREAD");

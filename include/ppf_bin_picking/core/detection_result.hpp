@@ -96,12 +96,12 @@ struct DetectedPose
       0;  ///< Evidence for the pose less that against it, in pixels confirming it. At most 1.
   double looked_through =
       0;  ///< Of the surface it expects, the share the cloud lies behind. [0, 1]
-  double usual_looked_through = 0;  ///< The same where other poses are; see setUsualShares().
+  double usual_looked_through = 0;  ///< What its part's other poses show; see setUsualShares().
   /// Of its edges in sight, its outline or where something hides it, the share where the cloud
   /// neither ends nor steps. [0, 1]
   double outline_broken = 0;
   double pierced = 0;        ///< Of the same edges, the share the cloud passes through. [0, 1]
-  double usual_pierced = 0;  ///< The same where other poses are; see setUsualShares().
+  double usual_pierced = 0;  ///< What its part's other poses show; see setUsualShares().
   double goes_on = 0;        ///< ... beyond which a surface goes on that is no held pose's. [0, 1]
   double claimed = 0;        ///< Of the surface it expects, the share better poses explain. [0, 1]
   double reliability = 0;    ///< Probability that it is right; see reliability.hpp. [0, 1]

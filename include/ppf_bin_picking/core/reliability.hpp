@@ -25,12 +25,16 @@ struct Reliability
 /// @param pose  All fields but reliability, reliable and reason are read.
 Reliability assessReliability(const DetectedPose& pose);
 
+/// Poses that pass every gate and have this probability while nothing is usual show what is usual.
+constexpr double kShowsUsual = 0.8;
+
 /// Writes what the cloud shows where right poses are: usual_looked_through and usual_pierced.
 /// Sensors lose the flanks of shiny parts and the rims of all and show what lies behind them, at
 /// every part of a scene alike, and of no sensor is it known beforehand how much. Of each pose
-/// either is the median over the other poses of its model that are probable though nothing be
-/// usual, and over five of whom nothing is looked through or pierced, so that few poses change
-/// nothing; at most 0.15, so that no scene excuses anything.
-/// @param poses  Of one detection. reliability is not read.
-void setUsualShares(std::vector<DetectedPose>& poses);
+/// either share is the median over the other poses of its model that show it and over five zeros,
+/// so that few poses change nothing; at most 0.1, so that a scene full of something else does not
+/// excuse itself.
+/// @param shows  Whether a pose shows what is usual; one for each pose.
+/// @param poses  Of one detection.
+void setUsualShares(const std::vector<bool>& shows, std::vector<DetectedPose>& poses);
 }  // namespace ppf_bin_picking
