@@ -119,6 +119,7 @@ std::vector<DetectedPose> standingPoses(const std::vector<const PpfModel*>& mode
 
 /// Writes how far the hypotheses of each pose spread: all of its cluster's if its outline lets it
 /// slide, as the whole cluster may be one pose sliding then, else its share of them.
+/// @param shares  Of each pose; those of poses that may slide become the whole cluster's.
 void addSpreads(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                 const std::vector<HypothesisCluster>& clusters, std::vector<ClusterShare>& shares,
                 std::vector<DetectedPose>& poses)

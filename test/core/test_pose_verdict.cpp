@@ -28,6 +28,13 @@ protected:
     return verdictOf(pose, true, share_, model_, config_);
   }
 
+  void expectPasses(const std::function<void(DetectedPose&)>& change) const
+  {
+    const PoseVerdict passed = verdict(change);
+    EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+    EXPECT_EQ(passed.detail, "");
+  }
+
   DetectedPose good_;
   ClusterShare share_;
   DetectorConfig config_;
@@ -36,9 +43,7 @@ protected:
 
 TEST_F(VerdictTest, trustsAPoseThatPassesEveryGate)
 {
-  const PoseVerdict passed = verdict([](DetectedPose&) {});
-  EXPECT_EQ(passed.reason, UnreliableReason::kNone);
-  EXPECT_EQ(passed.detail, "");
+  expectPasses([](DetectedPose&) {});
 }
 
 TEST_F(VerdictTest, namesTheGateThatAPoseFails)
@@ -81,8 +86,7 @@ TEST_F(VerdictTest, trustsAFirmlyHeldPoseWhateverItsOutline)
     pose.slide_share = 0.9;
     pose.hold = 0.1;
   };
-  const PoseVerdict passed = verdict(held_by_surfaces);
-  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  expectPasses(held_by_surfaces);
   config_.firm_hold = 0.2;
   EXPECT_EQ(verdict(held_by_surfaces).reason, UnreliableReason::kSlippage);
 }
@@ -90,15 +94,13 @@ TEST_F(VerdictTest, trustsAFirmlyHeldPoseWhateverItsOutline)
 TEST_F(VerdictTest, toleratesAsManyBrokenEdgesAsItIsTold)
 {
   config_.max_outline_broken = 0.9;
-  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.outline_broken = 0.8; });
-  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  expectPasses([](DetectedPose& pose) { pose.outline_broken = 0.8; });
 }
 
 TEST_F(VerdictTest, toleratesWhatPassesThroughAsFarAsItIsTold)
 {
   config_.max_pierced = 0.4;
-  const PoseVerdict passed = verdict([](DetectedPose& pose) { pose.pierced = 0.35; });
-  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  expectPasses([](DetectedPose& pose) { pose.pierced = 0.35; });
 }
 
 TEST_F(VerdictTest, toleratesWhatPassesThroughOtherPosesAsWell)
@@ -108,8 +110,7 @@ TEST_F(VerdictTest, toleratesWhatPassesThroughOtherPosesAsWell)
     pose.pierced = 0.35;
     pose.usual_pierced = 0.1;
   };
-  const PoseVerdict passed = verdict(pierced);
-  EXPECT_EQ(passed.reason, UnreliableReason::kNone) << passed.detail;
+  expectPasses(pierced);
   config_.max_pierced = 0.2;
   const PoseVerdict failed = verdict(pierced);
   EXPECT_NE(failed.detail.find("35 % of its edges (10 % is usual here"), std::string::npos)
@@ -124,7 +125,7 @@ TEST_F(VerdictTest, namesNoGateThatIsOff)
     pose.slide_share = pose.outline_broken = pose.pierced = 1;
     pose.margin = pose.reliability = 0;
   };
-  EXPECT_EQ(verdict(doubtful).reason, UnreliableReason::kNone);
+  expectPasses(doubtful);
   const PoseVerdict failed = verdict(
       [&](DetectedPose& pose)
       {
@@ -140,7 +141,7 @@ TEST_F(VerdictTest, turnsSpreadHypothesesDownUnlessTheClusteringKnowsNone)
   share_.box.size = Eigen::Vector3d::Constant(model_.diameter());
   EXPECT_EQ(verdict([](DetectedPose&) {}).reason, UnreliableReason::kSpread);
   config_.clustering = Clustering::kGreedy;
-  EXPECT_EQ(verdict([](DetectedPose&) {}).reason, UnreliableReason::kNone);
+  expectPasses([](DetectedPose&) {});
 }
 
 TEST_F(VerdictTest, trustsNoPoseWithUnknownRivals)
