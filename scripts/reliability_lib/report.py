@@ -3,22 +3,18 @@
 import math
 
 import matplotlib
-import yaml
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # after the choice of a backend that needs no display
 
-from benchmark_lib.cases import PACKAGE
 from benchmark_lib.report import number, table
 
 from .regression import PENALTY, kept_and_precision, reliability_bins
 from .terms import TERMS, code_of
 from .training import FOREIGN_SHIFTS, FOREIGN_WEIGHT, SETS
-from .usual import MAX_ROUNDS, MOST_USUAL, SHOWS_USUAL, ZEROS
+from .usual import MAX_ROUNDS, MOST_USUAL, SETTINGS, SHOWS_USUAL, ZEROS
 
-DEFAULT_THRESHOLD = yaml.safe_load((PACKAGE / "config/detector.yaml").read_text())[
-    "min_reliability"
-]
+DEFAULT_THRESHOLD = SETTINGS["min_reliability"]
 THRESHOLDS = sorted({0.5, 0.8, DEFAULT_THRESHOLD, 0.9, 0.95})
 WITH_RIGHT_ONES = ("own", "shiny")
 

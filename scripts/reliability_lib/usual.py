@@ -21,9 +21,9 @@ MAX_ROUNDS = 20
 SAME_WEIGHT = 1e-3  # of a weight: no further round
 
 
-def passes_gates(pose, settings=None):
+def passes_gates(pose):
     """Whether a pose of a result passes all gates but the reliability's while nothing is usual: pose_verdict.cpp."""
-    limit = settings or SETTINGS
+    limit = SETTINGS
     slides = pose["slide_share"] > limit["max_slide_share"] and pose["hold"] < limit["firm_hold"]
     return (
         pose["spread"] <= limit["max_spread_rel"]

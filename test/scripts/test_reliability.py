@@ -1,6 +1,7 @@
 """The fit behind scripts/fit_reliability: regression, shiny scenes, labels and terms."""
 
 import math
+import re
 import sys
 import tempfile
 import unittest
@@ -161,6 +162,13 @@ class UsualTest(unittest.TestCase):
         self.assertIn(f"kMostUsual = {usual.MOST_USUAL};", source)
         for term in terms.TERMS:
             self.assertIn(f"{{{term.code}, ", " ".join(source.split()))
+
+    def test_the_detector_has_no_other_gates(self):
+        verdict = (PACKAGE / "src/core/pose_verdict.cpp").read_text()
+        gates = set(re.findall(r"config\.(\w+)", verdict))
+        used = set(re.findall(r'limit\["(\w+)"\]', Path(usual.__file__).read_text()))
+        self.assertEqual(gates - used, {"clustering", "mismatch_test", "min_reliability"})
+        self.assertEqual(used - gates, set())
 
 
 class LeftOutTest(unittest.TestCase):
