@@ -9,22 +9,25 @@ from pathlib import Path
 
 from benchmark_lib import cases
 from benchmark_lib.detection import Bench
-from benchmark_lib.programs import provenance, run_script
+from benchmark_lib.programs import Progress, provenance, run_script
 
 from .copies import CopiedBench, copy_bins, copy_real, reliable_poses, suspicious_poses
+from .edited_core import EditedCore
 from .report import write_page
 from .rows import ROWS
+from .steps import STEPS
 
 SEEDS = (1, 2, 3, 4)  # of the noise
 FILL = 16  # of the package's own scenes
+ALL_ROWS = ROWS + STEPS
 OWN_SEED = 201  # of these scenes; not the benchmark's, as decisions are taken here
 
 
 def arguments():
-    names = [row.name for row in ROWS]
+    names = [row.name for row in ALL_ROWS]
     parser = argparse.ArgumentParser(
         prog="scripts/ablation",
-        description="Changes one setting at a time and measures what it does; writes a report. What was done before is not done again.",
+        description="Changes one setting at a time, or leaves a step out, and measures what it does; writes a report. What was done before is not done again.",
     )
     data = Path(os.environ.get("PPF_BIN_PICKING_DATA", "../shared/data"))
     parser.add_argument("--data", type=Path, default=data, help="holds bins and real/pins")
@@ -37,6 +40,14 @@ def arguments():
         help="default: docs/ablation.md if all is measured, else ablation.md in the folder",
     )
     return parser.parse_args()
+
+
+def one_a_part(scenes):
+    """The first scene of each part."""
+    firsts = {}
+    for scene in scenes:
+        firsts.setdefault(scene.part, scene)
+    return list(firsts.values())
 
 
 def write_configs(folder, rows):
@@ -59,6 +70,12 @@ class Ablation:
         self.bins = CopiedBench(folder / "bins", configs)
         self.real = CopiedBench(folder / "real", configs)
         self.own = Bench(folder / "own", configs)
+        core = EditedCore(folder / "core")
+        for row in rows:
+            if row.edits:
+                library = core.library(row)
+                for bench in (self.bins, self.real, self.own):
+                    bench.cores[row.name] = library
         self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
         self.real_scenes = copy_real(options.data / "real/pins", self.real)
         self.own_scenes = [
@@ -85,26 +102,37 @@ class Ablation:
     def bin_figures(self, variant, seed):
         scenes = self.bin_scenes[seed]
         self.bins.detect_all(variant, scenes)
-        summary = self.bins.evaluate(f"seed-{seed}", variant, scenes)["summary"]
-        return {**summary, "ms": self.median_ms(self.bins, variant, scenes)}
+        return self.bins.evaluate(f"seed-{seed}", variant, scenes)["summary"]
 
     def own_figures(self, variant):
         self.own.detect_all(variant, self.own_scenes)
-        summary = self.own.evaluate("ablation", variant, self.own_scenes)["summary"]
-        return {**summary, "ms": self.median_ms(self.own, variant, self.own_scenes)}
+        return self.own.evaluate("ablation", variant, self.own_scenes)["summary"]
 
-    @staticmethod
-    def median_ms(bench, variant, scenes):
-        return statistics.median(times["all"] for times in bench.stage_times(variant, scenes))
+    def relative_times(self, rows):
+        """Of each row, over the first one: median over a scene of each part. All rows meet a scene one after the other,
+        so that a machine that gets slower does so for all of them."""
+        ratios = {row.name: [] for row in rows}
+        first_bins = next(iter(self.bin_scenes.values()))
+        scenes = [(self.bins, scene) for scene in one_a_part(first_bins)]
+        scenes += [(self.own, scene) for scene in one_a_part(self.own_scenes)]
+        progress = Progress("times", len(scenes))
+        for bench, scene in scenes:
+            times_ms = [bench.time_ms(row.name, scene) for row in rows]
+            for row, time_ms in zip(rows, times_ms):
+                ratios[row.name].append(time_ms / times_ms[0])
+            progress.step(f"{scene.part} {scene.name}", True)
+        return {name: statistics.median(values) for name, values in ratios.items()}
 
 
 def work(options):
     """Returns the exit status."""
-    rows = [row for row in ROWS if row.name in (options.rows or [row.name])]
+    rows = [row for row in ALL_ROWS if row.name in (options.rows or [row.name])]
     if rows[0].name != ROWS[0].name:
         rows.insert(0, ROWS[0])  # what the others are compared with
     ablation = Ablation(options, rows)
     figures = {row.name: ablation.measure(row) for row in rows}
+    for name, ratio in ablation.relative_times(rows).items():
+        figures[name]["time"] = ratio
     (options.folder / "figures.json").write_text(json.dumps(figures, indent=1))
     complete = not options.rows and tuple(options.seeds) == SEEDS
     page = options.report or (Path("docs") if complete else options.folder) / "ablation.md"

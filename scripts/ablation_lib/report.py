@@ -30,16 +30,6 @@ def over_seeds(bins, part, key):
     return mean(seed[part][key] for seed in bins)
 
 
-def time_of(figures, name, first):
-    """Over that of the first row: each scene set's own median, their geometric mean."""
-
-    def times(row):
-        return statistics.mean(seed["ms"] for seed in row["bins"]), row["own"]["ms"]
-
-    ratios = [a / b for a, b in zip(times(figures[name]), times(figures[first]))]
-    return statistics.geometric_mean(ratios)
-
-
 def step_table(rows, figures):
     """One line a row."""
     heading = ["setting", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
@@ -52,7 +42,7 @@ def step_table(rows, figures):
             + [number(over_seeds(figure["bins"], "ALL", key), 3) for key in KEYS]
             + [number(figure["own"]["ALL"][key], 3) for key in KEYS]
             + [figure["pins"], figure["suspicious"], figure["others"]]
-            + [f"{time_of(figures, row.name, rows[0].name):.2f}"]
+            + [number(figure["time"], 2)]
         )
     return table(heading, lines)
 
@@ -72,13 +62,13 @@ def part_table(bins):
     lines = [
         [part] + [number(over_seeds(bins, part, key), digits) for _, key, digits in COLUMNS]
         for part in bins[0]
-        if part != "ms"
     ]
     return table(["part", *[heading for heading, _, _ in COLUMNS]], lines)
 
 
 def settings_text(row):
-    return ", ".join(f"{key}: {value}" for key, value in row.settings.items()) or "the defaults"
+    settings = ", ".join(f"{key}: {value}" for key, value in row.settings.items())
+    return row.what or settings or "the defaults"
 
 
 def decisions(rows):
@@ -93,7 +83,8 @@ def introduction(facts):
     """What was done, and how to do it again."""
     return f"""# What each step brings
 
-One setting is changed at a time; everything else stays as config/detector.yaml has it. This page is written by
+One setting is changed at a time; everything else stays as config/detector.yaml has it. Steps that no setting turns off are left out of the core's
+sources (`scripts/ablation_lib/steps.py`), which are built anew; the reliability stays as it was fitted with them. This page is written by
 
     {facts['command']}
 
@@ -104,7 +95,7 @@ which keeps what is done in `{facts['folder']}`. Commit {facts['commit']}; {fact
 - own: simulated scenes of each of the package's parts, {facts['fill']} in the bin, three sensors, seed {facts['own_seed']}: not those of scripts/benchmark.
 - pins: reliable poses on the real scan's bin of pins (about 36 lie there), how many of them `check_poses` finds suspicious, and the reliable poses in
   the three bins beside it, where no pin lies and every pose is wrong.
-- time: of a whole detection, over that of the first row; medians of the first two sets, their geometric mean.
+- time: of a whole detection, over that of the first row; median over a scene of each part of the first two sets, which all rows see one after the other.
 """
 
 

@@ -1,15 +1,17 @@
 """What is changed, one setting at a time, and what was decided."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
 class Row:
-    """A change of the settings, and what follows from its figures."""
+    """A change of the settings or of the core's sources, and what follows from its figures."""
 
     name: str
-    settings: dict
+    settings: dict = field(default_factory=dict)
     decision: str = ""  # none: not taken yet
+    what: str = ""  # is changed; none: the settings say it
+    edits: tuple = ()  # of the core's sources, see edited_core.py
 
 
 ROWS = (

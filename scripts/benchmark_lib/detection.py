@@ -22,6 +22,7 @@ class Bench:
     def __init__(self, folder, configs):
         self.folder = folder
         self.configs = configs  # path of the settings of each variant
+        self.cores = {}  # path of the core library of a variant that has one of its own
 
     def part_folder(self, part):
         return self.folder / "scenes" / part
@@ -78,15 +79,26 @@ class Bench:
     def model(self, variant, part):
         """The part's trained model."""
         path = self.folder / "models" / variant / f"{part}.ppf"
-        config = self.configs[variant]
-        key = digest(config, self.part_digest(part), program_digest("train_model"))
+        key = digest(
+            *self.variant_files(variant), self.part_digest(part), program_digest("train_model")
+        )
         part_file = self.part_folder(part) / "part.yaml"
         once(
             path,
             key,
-            lambda: run("train_model", "--part", part_file, "--config", config, "--output", path),
+            lambda: self.run(variant, "train_model", "--part", part_file, "--output", path),
         )
         return path
+
+    def variant_files(self, variant):
+        """What makes a variant."""
+        core = self.cores.get(variant)
+        return [self.configs[variant], *([core] if core else [])]
+
+    def run(self, variant, program, *arguments):
+        """A program with a variant's settings and core."""
+        config = ("--config", self.configs[variant])
+        return run(program, *arguments, *config, core=self.cores.get(variant))
 
     def result_path(self, variant, scene, part=None):
         """part: what is looked for, if not the scene's own."""
@@ -99,21 +111,31 @@ class Bench:
         """Poses of one scene's part, or of another in its place. Returns whether they were found now."""
         part = part or scene.part
         path = self.result_path(variant, scene, part)
-        config = self.configs[variant]
-        model = self.model(variant, part)
         key = digest(
-            config, self.scene_key(scene), self.part_digest(part), program_digest("detect_poses")
+            *self.variant_files(variant),
+            self.scene_key(scene),
+            self.part_digest(part),
+            program_digest("detect_poses"),
         )
-        return once(
-            path,
-            key,
-            lambda: run(
-                "detect_poses",
-                *("--part", self.part_folder(part) / "part.yaml", "--model", model),
-                *self.scene_arguments(scene),
-                *("--config", config, "--output", path),
-            ),
+        self.model(variant, part)
+        return once(path, key, lambda: self.detect_now(variant, scene, part, path))
+
+    def detect_now(self, variant, scene, part, path):
+        """Writes what detect_poses finds."""
+        self.run(
+            variant,
+            "detect_poses",
+            *("--part", self.part_folder(part) / "part.yaml"),
+            *("--model", self.model(variant, part)),
+            *self.scene_arguments(scene),
+            *("--output", path),
         )
+
+    def time_ms(self, variant, scene):
+        """Duration of a detection that runs now."""
+        path = self.folder / "timed.json"
+        self.detect_now(variant, scene, scene.part, path)
+        return json.loads(path.read_text())["time_ms"]
 
     def scene_arguments(self, scene):
         """How detect_poses and check_poses are told the scene."""

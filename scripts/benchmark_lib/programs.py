@@ -78,10 +78,11 @@ def program_digest(name):
     return digest(program, *[PACKAGE / library for library in sorted(libraries)])
 
 
-def run(name, *arguments):
-    """Runs a program of the package. Returns what it printed."""
+def run(name, *arguments, core=None):
+    """Runs a program of the package. Returns what it printed. core: library in place of the package's core."""
     command = [str(PROGRAMS / name), *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    environment = {**os.environ, "LD_PRELOAD": str(core)} if core else None
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     if done.returncode != 0:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise BenchmarkError(f"{' '.join(command)} failed: {last}")
