@@ -10,6 +10,7 @@ from benchmark_lib.cases import PACKAGE
 from benchmark_lib.programs import BenchmarkError, digest, once
 
 SOURCES = ("src/core", "include")
+COMPILER = "src/compiler.cmake"
 TESTS = "test/core"  # not built, but CMake asks for them
 LIBRARY = "libppf_bin_picking_core.so"
 
@@ -49,7 +50,7 @@ class EditedCore:
         """Path of the row's library, built unless that is done."""
         path = self.folder / "libraries" / row.name / LIBRARY
         files = [file for name in SOURCES for file in sorted((PACKAGE / name).rglob("*.*"))]
-        key = digest(*files, *row.edits)
+        key = digest(PACKAGE / COMPILER, *files, *row.edits)
         once(path, key, lambda: self.build(row, path))
         return path
 
@@ -60,7 +61,7 @@ class EditedCore:
             shutil.copytree(
                 PACKAGE / name, copy / name, copy_function=copy_if_other, dirs_exist_ok=True
             )
-        copy_if_other(PACKAGE / "src/compiler.cmake", copy / "src/compiler.cmake")
+        copy_if_other(PACKAGE / COMPILER, copy / COMPILER)
         for edit in row.edits:
             file = copy / "src/core" / edit.file
             file.write_text(edited(edit, file.read_text()))
@@ -79,7 +80,8 @@ class EditedCore:
         command = ["cmake", *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            errors = [line for line in done.stderr.splitlines() if "error" in line.lower()]
+            printed = done.stderr + done.stdout
+            errors = [line for line in printed.splitlines() if "error" in line.lower()]
             raise BenchmarkError(
                 f"The core of {row.name} cannot be built: {(errors or ['no message'])[0]}"
             )

@@ -24,12 +24,12 @@ ROWS = (
     Row(
         "greedy",
         {"clustering": "greedy"},
-        "as good where the reliability judges; kept as a choice, as it knows no spread to show",
+        "as good on simulated scenes, but one of 19 pins is suspicious; kept as a choice, as it knows no spread to show",
     ),
     Row(
         "one-a-cluster",
         {"poses_per_cluster": 1},
-        "the paper's mode: a sixth quicker, loses poses of clusters that chain",
+        "the paper's mode: an eighth quicker, loses poses of clusters that chain, two pins among them",
     ),
     Row(
         "no-tests",
@@ -44,12 +44,12 @@ ROWS = (
     Row(
         "no-slide",
         {"max_slide_share": 1.0},
-        "kept for pins on longer cylinders, which these scenes hardly have",
+        "kept: a wrong pose more on other parts, and pins on longer cylinders, which these scenes hardly have",
     ),
     Row(
         "slide-of-all",
         {"firm_hold": 100.0},
-        "not taken: a firmly held part may touch others all around",
+        "not taken: changes nothing here, and a firmly held part may touch others all around",
     ),
     Row(
         "no-outline-gate",
@@ -59,7 +59,7 @@ ROWS = (
     Row(
         "no-pierced-gate",
         {"max_pierced": 1.0},
-        "kept: on other simulated scenes one of three wrong poses would pass with it (docs/decisions.md)",
+        "kept, though it costs recall here: on other simulated scenes one of three wrong poses would pass without (docs/decisions.md)",
     ),
     Row(
         "no-margin",
@@ -69,12 +69,12 @@ ROWS = (
     Row(
         "margin-0.1",
         {"min_margin": 0.1},
-        "not taken: costs parts and brings nothing",
+        "not taken: costs a hundredth of the parts, for a precision of .996 instead of .994 here and nothing on other parts",
     ),
     Row(
         "no-reliability",
         {"min_reliability": 0},
-        "the largest single step after the tests; what shiny pins it costs shows how far simulation is from them",
+        "the largest single step after the tests: without it four times as many poses are wrong, and a pin is suspicious",
     ),
     Row(
         "reliability-0.95",
@@ -94,12 +94,12 @@ ROWS = (
     Row(
         "icp-4",
         {"icp_iterations": 4},
-        "open: saves a fifth of the time, for AP .007 on other parts and two of thirteen shiny pins",
+        "not taken: saves a fifth of the time, for AP .014 on other parts and a third of the shiny pins",
     ),
     Row(
         "icp-24",
         {"icp_iterations": 24},
-        "not taken: more steps bring nothing",
+        "not taken: more steps bring nothing, and three pins fewer",
     ),
     Row(
         "no-quick-fit",
@@ -109,12 +109,12 @@ ROWS = (
     Row(
         "quick-fit-0",
         {"min_sparse_balance": 0},
-        "open: saves three tenths of the time, but costs ten of thirteen shiny pins; config/fast.yaml goes half of the way",
+        "not taken: saves a quarter of the time, but costs nearly all shiny pins; config/fast.yaml goes half of the way",
     ),
     Row(
         "candidates-100",
         {"max_candidates": 100},
-        "not taken: data/bins loses AP .025",
+        "not taken: data/bins loses AP .026, and a pin is suspicious",
     ),
     Row(
         "no-look",
@@ -124,12 +124,12 @@ ROWS = (
     Row(
         "look-0",
         {"min_look_balance": 0},
-        "open: a thirtieth of the time for nothing that is right; config/fast.yaml has it",
+        "not taken: nothing on simulated scenes, but four of 18 shiny pins; config/fast.yaml has it",
     ),
     Row(
         "no-climb",
         {"climb": False},
-        "kept: three of thirteen shiny pins for a fourteenth of the time; config/fast.yaml goes without",
+        "kept: five of 18 shiny pins, and a wrong pose fewer on other parts; config/fast.yaml goes without",
     ),
     Row(
         "candidates-600",
@@ -139,51 +139,51 @@ ROWS = (
     Row(
         "one-peak",
         {"peaks_per_reference": 1},
-        "not taken: a suspicious pose among the pins, and AP .010 less on other parts",
+        "not taken: a suspicious pose among the pins, and AP .016 less on other parts",
     ),
     Row(
         "references-0.05",
         {"reference_share": 0.05},
-        "not taken: AP .020 less on other parts for a twentieth of the time",
+        "not taken: AP .014 less on other parts",
     ),
     Row(
         "references-0.2",
         {"reference_share": 0.2},
-        "not taken: a third more time brings nothing",
+        "not taken: more time brings nothing, but a suspicious pin",
     ),
     Row(
         "lambda-0.5",
         {"lambda": 0.5},
-        "not taken: a ninth more time brings next to nothing where edges vote as well",
+        "not taken: brings next to nothing where edges vote as well",
     ),
     Row(
         "step-0.05",
         {"step_rel": 0.05},
-        "not taken: a third more time brings nothing",
+        "not taken: brings nothing but two wrong poses fewer of a thousand, and a suspicious pin",
     ),
     Row(
         "pixels-70",
         {"pixels_per_diameter": 70},
-        "open: saves a quarter of the time for a hundredth of the AP",
+        "open: saves much of the time, for a hundredth of the AP and two of the recall on other parts",
     ),
     Row(
         "pixels-140",
         {"pixels_per_diameter": 140},
-        "not taken: two fifths more time for half a hundredth of the recall",
+        "not taken: a fifth more time for half a hundredth of the recall",
     ),
     Row(
         "normals-3",
         {"normal_radius_px": 3},
-        "not taken: rougher normals, and one in a hundred wrong on other parts",
+        "not taken: rougher normals, one in a hundred wrong on other parts, and a suspicious pin",
     ),
     Row(
         "gate-0.01",
         {"depth_gate_rel": 0.01},
-        "not taken: loses a ninth of the other parts and nearly all shiny pins",
+        "not taken: loses a tenth of the other parts and nearly all shiny pins",
     ),
     Row(
         "gate-0.03",
         {"depth_gate_rel": 0.03},
-        "not taken: four of the pins that it adds are suspicious",
+        "not taken: four of its 25 pins are suspicious",
     ),
 )

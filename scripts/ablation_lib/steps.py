@@ -59,7 +59,7 @@ STEPS = (
     ),
     Row(
         "looked-through-neutral",
-        what="a cloud behind the part's surface speaks for nothing",
+        what="a cloud behind the part's surface speaks for nothing in the verification, nor in the reliability",
         edits=(
             Edit(
                 "verification.cpp",
@@ -70,7 +70,7 @@ STEPS = (
     ),
     Row(
         "wrong-normals-neutral",
-        what="a surface turned otherwise speaks for nothing",
+        what="a surface turned otherwise speaks for nothing in the verification",
         edits=(
             Edit(
                 "verification.cpp",
@@ -81,7 +81,7 @@ STEPS = (
     ),
     Row(
         "missing-neutral",
-        what="missing measurements speak for nothing",
+        what="missing measurements speak for nothing in the verification",
         edits=(
             Edit("verification.cpp", "kMissingWeight = 0.4;", "kMissingWeight = 0.0;"),
             Edit("verification.cpp", "kMissingBalance = 0.56;", "kMissingBalance = 0.0;"),
@@ -147,7 +147,7 @@ STEPS = (
     ),
     Row(
         "neighbours-hold-nothing",
-        what="a reliable neighbour does not stop a slide",
+        what="a neighbour that is held itself does not stop a slide",
         edits=(
             Edit(
                 "ambiguity.cpp",

@@ -5,28 +5,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr std::size_t kSpacingSamples = 2000;  // points whose neighbours give the spacing
-constexpr float kPixelPerSpacing = 1.0F;       // the image is about as fine as the points lie
+constexpr std::size_t kSpacingSamples = 10000;  // points whose neighbours give the spacing, about
+constexpr float kPixelPerSpacing = 1.0F;        // the image is about as fine as the points lie
 constexpr int kMaxImageSide_px = 4000;
 constexpr int kPointNeighbors = 12;
 
-/// Angle between neighbouring points as seen from the camera: the median over some of them [rad].
+/// A number that a point's coordinates alone decide, whatever its place in the cloud.
+std::size_t hashOf(const Eigen::Vector3f& p)
+{
+  const std::hash<float> hash;
+  constexpr std::size_t kOdd = 0x9E3779B97F4A7C15;  // spreads the bits, as in Knuth's hashing
+  return (((hash(p.x()) * kOdd) ^ hash(p.y())) * kOdd ^ hash(p.z())) * kOdd >> 32;
+}
+
+/// Angle between neighbouring points as seen from the camera: the median over some of them, which
+/// are the same in whatever order the points come [rad].
 float pointSpacing(const std::vector<Eigen::Vector3f>& points)
 {
   const NeighborSearch search(points);
   std::vector<float> spacings;
   std::vector<std::pair<std::uint32_t, float>> near;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / kSpacingSamples);
-  for (std::size_t i = 0; i < points.size(); i += stride)
+  for (const Eigen::Vector3f& point : points)
   {
-    search.nearest(points[i], 2, near);
-    if (near.size() == 2) spacings.push_back(std::sqrt(near[1].second) / points[i].z());
+    if (hashOf(point) % stride != 0) continue;
+    search.nearest(point, 2, near);
+    if (near.size() == 2) spacings.push_back(std::sqrt(near[1].second) / point.z());
   }
   if (spacings.empty()) return 0;
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);

@@ -164,6 +164,7 @@ std::vector<PoseVerdict> judge(const std::vector<const PpfModel*>& models,
                                std::vector<DetectedPose>& poses)
 {
   DetectorConfig showing = config;
+  showing.mismatch_test = true;
   showing.min_reliability = kShowsUsual;
   addReliabilities(poses);
   std::vector<bool> shows;

@@ -65,7 +65,9 @@ std::vector<std::uint8_t> pointsInRegion(const PointCloud& cloud,
 /// @param inside  At least one point is.
 float nearDepth(const PointCloud& cloud, const std::vector<std::uint8_t>& inside, std::size_t count)
 {
-  const std::size_t stride = std::max<std::size_t>(1, count / kDepthSamples) | 1;
+  // Of points in any order all count, so that the order does not.
+  const std::size_t stride =
+      cloud.organised() ? std::max<std::size_t>(1, count / kDepthSamples) | 1 : 1;
   std::vector<float> depths;
   std::size_t left = 0;  // to the next that is taken
   for (std::size_t i = 0; i < cloud.size(); ++i)

@@ -108,6 +108,24 @@ TEST(MakeRangeImageUnorganised, doesNotDependOnTheOrderOfDensePoints)
   ASSERT_GT(one.image.depth.size(), 5000U);
 }
 
+TEST(MakeRangeImageUnorganised, givesTheSamePixelsToSparsePointsInAnyOrder)
+{
+  const PinholeCamera camera = smallCamera();
+  RangeImageOptions options = everyPixel(camera);
+  options.pixels_per_diameter *= 4;  // finer than the points lie: their spacing decides
+  PointCloud cloud = shuffledCloud(wavyCloud(camera));
+  std::mt19937 random(78);
+  std::normal_distribution<float> noise(0, 0.0001F);
+  for (Eigen::Vector3f& point : cloud.points)
+    point += Eigen::Vector3f(noise(random), noise(random), noise(random));
+  const RangeImageResult one = makeRangeImage(cloud, std::nullopt, options);
+  std::shuffle(cloud.points.begin(), cloud.points.end(), random);
+  const RangeImageResult other = makeRangeImage(cloud, std::nullopt, options);
+  EXPECT_EQ(one.image.camera.fx, other.image.camera.fx);
+  EXPECT_EQ(one.image.depth, other.image.depth);
+  EXPECT_LT(one.image.camera.fx, 0.9F * 4 * camera.fx);
+}
+
 TEST(MakeRangeImageUnorganised, seesTheSameSurfaceOrganisedOrNot)
 {
   const PinholeCamera camera = smallCamera();

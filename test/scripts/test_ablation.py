@@ -1,8 +1,10 @@
 """The rows of the ablation, and the edits of the core's sources that leave steps out."""
 
 import sys
+import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 PACKAGE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PACKAGE / "scripts"))
@@ -10,6 +12,7 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 from ablation_lib.edited_core import Edit, edited
 from ablation_lib.rows import ROWS
 from ablation_lib.steps import STEPS
+from benchmark_lib import programs
 from benchmark_lib.programs import BenchmarkError
 
 
@@ -28,6 +31,18 @@ class Edits(unittest.TestCase):
                 with self.subTest(step=row.name):
                     text = (PACKAGE / "src/core" / edit.file).read_text(encoding="utf-8")
                     self.assertNotEqual(edited(edit, text), text)
+
+
+class Programs(unittest.TestCase):
+    def test_are_not_run_without_the_core_that_was_asked_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "program"
+            program.write_text("#!/bin/sh\nexit 0\n")
+            program.chmod(0o755)
+            with mock.patch.object(programs, "PROGRAMS", Path(folder)):
+                self.assertEqual(programs.run("program"), "")
+                with self.assertRaisesRegex(BenchmarkError, "missing.so"):
+                    programs.run("program", core=Path(folder) / "missing.so")
 
 
 class Rows(unittest.TestCase):
