@@ -86,9 +86,8 @@ def run(name, *arguments, core=None):
     if done.returncode != 0:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise BenchmarkError(f"{' '.join(command)} failed: {last}")
-    if (
-        core and "cannot be preloaded" in done.stderr
-    ):  # a warning, after which the package's own is used
+    # The loader only warns, and the package's own would be used.
+    if core and "cannot be preloaded" in done.stderr:
         raise BenchmarkError(
             f"The loader does not take {core}: use a folder without spaces and colons."
         )
