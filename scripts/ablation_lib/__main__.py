@@ -68,11 +68,9 @@ class Ablation:
         self.real = CopiedBench(folder / "real", configs)
         self.own = Bench(folder / "own", configs)
         core = EditedCore(folder / "core")
-        for row in rows:
-            if row.edits:
-                library = core.library(row)
-                for bench in (self.bins, self.real, self.own):
-                    bench.cores[row.name] = library
+        cores = {row.name: core.library(row) for row in rows if row.edits}
+        for bench in (self.bins, self.real, self.own):
+            bench.cores = cores
         self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
         self.real_scenes = copy_real(options.data / "real/pins", self.real)
         self.own_scenes = [

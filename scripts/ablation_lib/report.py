@@ -32,7 +32,7 @@ def over_seeds(bins, part, key):
 
 def step_table(rows, figures):
     """One line a row."""
-    heading = ["setting", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
+    heading = ["setting or step", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
     heading += ["other bins", "time"]
     lines = []
     for row in rows:
@@ -106,7 +106,7 @@ def write_page(facts, rows, figures):
         [
             introduction(facts),
             step_table(rows, figures),
-            "## Settings and decisions\n\n" + decisions(rows),
+            "## Settings, steps and decisions\n\n" + decisions(rows),
             "## The evaluation scenes, seed by seed\n\n" + seed_table(bins),
             "## ... and by part\n\nMeans over the seeds.\n\n" + part_table(bins),
         ]

@@ -117,7 +117,6 @@ class Bench:
             self.part_digest(part),
             program_digest("detect_poses"),
         )
-        self.model(variant, part)
         return once(path, key, lambda: self.detect_now(variant, scene, part, path))
 
     def detect_now(self, variant, scene, part, path):

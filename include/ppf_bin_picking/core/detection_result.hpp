@@ -92,7 +92,7 @@ struct DetectedPose
       0;  ///< How firmly surfaces and edges hold the worst motion; see pose_information.hpp.
   double spread = 0;            ///< Sum of the sides of its hypotheses' box, in diameters.
   double margin = 1;            ///< Lead over the best rival, relative to its pixels. At most 1.
-  double evidence_balance = 0;  ///< Evidence for it less that against it, per pixel. At most 1.
+  double evidence_balance = 0;  ///< For it less against it, per pixel that confirms it. At most 1.
   double looked_through =
       0;  ///< Of the surface it expects, the share the cloud lies behind. [0, 1]
   double usual_looked_through = 0;  ///< What its part's other poses show; see setUsualShares().
