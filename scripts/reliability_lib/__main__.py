@@ -10,9 +10,9 @@ from benchmark_lib.cases import all_parts
 from benchmark_lib.detection import write_configs
 from benchmark_lib.programs import BenchmarkError, provenance, run_script
 
-from .report import diagram_table, diagrams, draw_diagram, threshold_table, write_page
+from .report import Fitted, diagram_table, draw_diagram, threshold_table, write_page
 from .terms import SIGNS, code_of
-from .training import VARIANT, Plan, Training, collect
+from .training import FITS, VARIANT, Plan, Training, collect
 from .usual import fit, predict_left_out, without_usual
 
 QUICK_PARTS = ("bolt", "box")
@@ -47,14 +47,13 @@ def choose(options):
     return Plan(parts, **(QUICK_PLAN if options.quick else {}))
 
 
-def fit_all(poses):
+def fit_all(poses, weights):
     """The model of all parts with the means of its terms over right poses, and what models without each part predict."""
     for part in sorted(set(poses.parts)):
         if len(set(poses.labels[poses.parts != part])) < 2:
             raise BenchmarkError(
                 f"Without {part} all poses are right, or all wrong: take more parts."
             )
-    weights = poses.weights()
     model = fit(poses.terms, poses.labels, weights, poses.gates, poses.scenes, SIGNS)
     right = poses.labels == 1
     beyond = without_usual(model, poses.terms, poses.gates, poses.scenes)
@@ -63,6 +62,13 @@ def fit_all(poses):
         poses.terms, poses.labels, weights, poses.parts, poses.gates, poses.scenes, SIGNS
     )
     return (model, means), predicted
+
+
+def fit_of(name, poses):
+    """One of FITS with its figures."""
+    chosen, weights = poses.of_fit(name)
+    (model, means), predicted = fit_all(chosen, weights)
+    return Fitted(name, chosen, weights, model, means, predicted)
 
 
 def run_facts(options, plan):
@@ -75,16 +81,15 @@ def run_facts(options, plan):
 
 
 def report(options, plan, poses):
-    """Fits, prints the figures, writes the page and its picture."""
+    """Fits, prints the figures, writes the page and its pictures."""
     facts = run_facts(options, plan)  # before a file differs from the commit
-    fitted, predicted = fit_all(poses)
-    drawn = diagrams(poses, predicted)
-    print(code_of(*fitted))
-    print(threshold_table(poses, predicted))
-    print(diagram_table(drawn))
-    picture = "images/reliability.png"
-    draw_diagram(drawn, options.report.parent / picture)
-    options.report.write_text(write_page(facts, poses, fitted, predicted, drawn, picture))
+    fits = [fit_of(name, poses) for name in FITS]
+    code = code_of([(fitted.model, fitted.means) for fitted in fits])
+    print(code)
+    for fitted in fits:
+        print(f"{fitted.name}\n\n{threshold_table(fitted)}\n{diagram_table(fitted)}")
+        draw_diagram(fitted, options.report.parent / fitted.picture)
+    options.report.write_text(write_page(facts, fits, code))
     print(f"Wrote {options.report}")
 
 

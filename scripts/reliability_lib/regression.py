@@ -7,6 +7,8 @@ from scipy import optimize, special
 
 from benchmark_lib.programs import BenchmarkError
 
+# Of the ranges of a reliability diagram. What is picked lies in the last tenth: it is cut finer.
+EDGES = (0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 1)
 PENALTY = 1.0  # on half the squared weights of the standardised terms
 
 
@@ -73,16 +75,16 @@ class Bin:
     observed: float  # share of right ones; NaN of none
 
 
-def reliability_bins(predicted, labels, sample_weights, bins=10):
-    """The reliability diagram: equally wide ranges of probability (DeGroot and Fienberg 1983)."""
-    places = np.minimum((predicted * bins).astype(int), bins - 1)
+def reliability_bins(predicted, labels, sample_weights):
+    """The reliability diagram: shares of right ones in ranges of probability (DeGroot and Fienberg 1983)."""
+    places = np.searchsorted(EDGES[1:-1], predicted, side="right")
     diagram = []
-    for k in range(bins):
+    for k, (low, high) in enumerate(zip(EDGES, EDGES[1:])):
         inside = places == k
         weights = sample_weights[inside]
         means = [
             np.average(values[inside], weights=weights) if inside.any() else np.nan
             for values in (predicted, labels)
         ]
-        diagram.append(Bin(k / bins, (k + 1) / bins, int(inside.sum()), *map(float, means)))
+        diagram.append(Bin(low, high, int(inside.sum()), *map(float, means)))
     return diagram

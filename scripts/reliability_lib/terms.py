@@ -124,10 +124,18 @@ def terms_of(poses, place):
     return np.array(rows, float).reshape(len(poses), len(TERMS))
 
 
-def code_of(model, means):
-    """The lines of src/core/reliability.cpp that hold the fit. means: of the terms over right poses."""
+def code_of(fitted):
+    """The lines of src/core/reliability.cpp that hold the fits.
+
+    fitted: pairs of a model and the means of the terms over right poses: within a region, in the whole cloud.
+    """
+    (region, region_means), (whole, whole_means) = fitted
+    columns = (region.weights, region_means, whole.weights, whole_means)
     rows = [
-        f"      {{{term.code}, {weight:.3f}, {mean:.3f}, UnreliableReason::{term.reason}}},\n"
-        for term, weight, mean in zip(TERMS, model.weights, means)
+        f"      {{{term.code}, UnreliableReason::{term.reason}, {{{a:.3f}, {b:.3f}}}, {{{c:.3f}, {d:.3f}}}}},\n"
+        for term, a, b, c, d in zip(TERMS, *columns)
     ]
-    return f"constexpr double kIntercept = {model.intercept:.3f};\n\n" + "".join(rows)
+    return (
+        f"constexpr double kInterceptInRegion = {region.intercept:.3f};\n"
+        f"constexpr double kInterceptInWholeCloud = {whole.intercept:.3f};\n\n" + "".join(rows)
+    )

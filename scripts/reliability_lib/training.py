@@ -1,8 +1,10 @@
-"""What the fit learns from: scenes, shiny copies of them, and the poses found in them, right or wrong."""
+"""What the fits learn from: scenes, changed copies of them, and the poses found in them, right or wrong."""
 
+import inspect
 import json
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 
@@ -10,7 +12,7 @@ from benchmark_lib.cases import PRESETS, Scene
 from benchmark_lib.detection import Bench
 from benchmark_lib.programs import Progress, digest, once
 
-from . import shiny
+from . import coarse, shiny
 from .terms import terms_of
 from .usual import passes_gates
 
@@ -18,19 +20,28 @@ SEEDS = (101, 102)  # not the benchmark's
 FILLS = (8, 24, 36)
 FOREIGN_FILL = 24
 SHINY_PRESETS = ("clean", "industrial")  # of low_cost hardly anything would be left
+OPEN_PRESETS = ("industrial", "low_cost")
+COARSE_FILLS = (24, 36)
+COARSE_PRESETS = ("clean", "industrial")  # the noise of low_cost is that of finer pixels
 # Places in the list of parts between the part looked for and the one that is there.
 FOREIGN_SHIFTS = (1, 3, 5, 8)
 FOREIGN_WEIGHT = 0.2  # a bin rarely holds other parts
+BORROWED_WEIGHT = 0.2  # of shiny parts within a region, where the whole cloud is searched
 VARIANT = "default"
-# Name of each set of poses with its weight in the fit.
-SETS = {"own": 1.0, "shiny": 1.0, "foreign": FOREIGN_WEIGHT, "foreign, shiny": FOREIGN_WEIGHT}
+FOREIGN = {"foreign": FOREIGN_WEIGHT, "foreign, shiny": FOREIGN_WEIGHT}
+# Name of each fit, with its sets of poses and their weights.
+FITS = {
+    "within a region of interest": {"own": 1.0, "shiny": 1.0, "coarse": 1.0, **FOREIGN},
+    "in the whole cloud": {"open": 1.0, "open, coarse": 1.0, "shiny": BORROWED_WEIGHT, **FOREIGN},
+}
 
 
 @dataclass(frozen=True)
-class ShinyScene:
-    """A shiny copy of a scene."""
+class ChangedScene:
+    """A changed copy of a scene. kind: one of KINDS."""
 
     source: Scene
+    kind: str
 
     @property
     def part(self):
@@ -38,7 +49,33 @@ class ShinyScene:
 
     @property
     def name(self):
-        return f"shiny-{self.source.name}"
+        return f"{self.kind.replace(', ', '-')}-{self.source.name}"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Of copies."""
+
+    write: Callable  # a copy, from the folder of the scene and its own
+    presets: tuple  # of the scenes that are copied
+    fills: tuple
+    loose: bool = False  # looked for in a cloud without order, not in the depth image
+    open: bool = False  # looked for without the region of interest
+
+    @property
+    def module(self):
+        """The file that decides what a copy holds."""
+        return Path(inspect.getfile(self.write))
+
+
+KINDS = {
+    "shiny": Kind(shiny.write_shiny_scene, SHINY_PRESETS, FILLS),
+    "coarse": Kind(coarse.write_coarse_scene, COARSE_PRESETS, COARSE_FILLS, loose=True),
+    "open": Kind(coarse.write_same_scene, OPEN_PRESETS, FILLS, open=True),
+    "open, coarse": Kind(
+        coarse.write_coarse_scene, COARSE_PRESETS, COARSE_FILLS, loose=True, open=True
+    ),
+}
 
 
 @dataclass
@@ -52,25 +89,37 @@ class Poses:
     gates: np.ndarray  # whether it passes them while nothing is usual
     scenes: np.ndarray  # a number for each result
 
-    def weights(self):
-        """In the fit."""
-        return np.array([SETS[name] for name in self.sets])
+    def of_fit(self, name):
+        """The poses of one of FITS, and their weights."""
+        weights = np.array([FITS[name].get(pose_set, 0.0) for pose_set in self.sets])
+        used = weights > 0
+        columns = [getattr(self, field.name)[used] for field in fields(Poses)]
+        return Poses(*columns), weights[used]
 
 
 class Training(Bench):
-    """A bench with shiny scenes beside the simulated ones."""
+    """A bench with changed scenes beside the simulated ones."""
 
     def scene_key(self, scene):
-        if isinstance(scene, ShinyScene):
-            return digest(super().scene_key(scene.source), scene, Path(shiny.__file__))
+        if isinstance(scene, ChangedScene):
+            return digest(super().scene_key(scene.source), scene, KINDS[scene.kind].module)
         return super().scene_key(scene)
 
-    def make_shiny_all(self, scenes):
+    def scene_arguments(self, scene):
+        if not isinstance(scene, ChangedScene):
+            return super().scene_arguments(scene)
+        kind, folder = KINDS[scene.kind], self.scene_path(scene)
+        image = ("--depth", folder / "depth.png", "--camera", folder / "camera.yaml")
+        region = () if kind.open else ("--roi", folder / "roi.yaml")
+        return (*(("--cloud", folder / coarse.CLOUD) if kind.loose else image), *region)
+
+    def change_all(self, scenes):
         """The copies, from scenes that exist."""
-        progress = Progress("shiny scenes", len(scenes))
+        progress = Progress("changed scenes", len(scenes))
         for scene in scenes:
             source, path = self.scene_path(scene.source), self.scene_path(scene)
-            made = once(path, self.scene_key(scene), lambda: shiny.write_shiny_scene(source, path))
+            write = KINDS[scene.kind].write
+            made = once(path, self.scene_key(scene), lambda: write(source, path))
             progress.step(f"{scene.part} {scene.name}", made)
 
     def find_foreign(self, pairs):
@@ -105,8 +154,20 @@ class Plan:
             for preset in self.presets
         ]
 
-    def shiny(self):
-        return [ShinyScene(scene) for scene in self.plain() if scene.preset in SHINY_PRESETS]
+    def used(self, presets):
+        """Those of them that the plan has."""
+        return [preset for preset in presets if preset in self.presets]
+
+    def changed(self):
+        """Lists of copies by kind."""
+        return {
+            name: [
+                ChangedScene(scene, name)
+                for scene in self.plain()
+                if scene.preset in kind.presets and scene.count in kind.fills
+            ]
+            for name, kind in KINDS.items()
+        }
 
     def foreign_fill(self):
         """Of the scenes of other parts."""
@@ -122,7 +183,7 @@ class Plan:
                     if preset in self.presets:
                         plain.append((part, Scene(other, self.foreign_fill(), preset, seed)))
                 scene = Scene(other, self.foreign_fill(), "industrial", last)
-                copies.append((part, ShinyScene(scene)))
+                copies.append((part, ChangedScene(scene, "shiny")))
         return {"foreign": plain, "foreign, shiny": copies}
 
 
@@ -187,14 +248,13 @@ def joined(found):
 
 def collect(plan, bench):
     """Makes, finds and judges everything. Returns the poses."""
-    plain, copies, foreign = plan.plain(), plan.shiny(), plan.foreign()
-    bench.simulate_all(plain)
-    bench.make_shiny_all(copies)
-    bench.detect_all(VARIANT, plain + copies)
+    own, foreign = {"own": plan.plain(), **plan.changed()}, plan.foreign()
+    bench.simulate_all(own["own"])
+    bench.change_all([scene for kind in KINDS for scene in own[kind]])
+    bench.detect_all(VARIANT, [scene for scenes in own.values() for scene in scenes])
     bench.find_foreign([pair for pairs in foreign.values() for pair in pairs])
     found = {
-        "own": list(own_poses(bench, "own", plain)),
-        "shiny": list(own_poses(bench, "shiny", copies)),
+        **{name: list(own_poses(bench, name, scenes)) for name, scenes in own.items()},
         **{name: list(foreign_poses(bench, pairs)) for name, pairs in foreign.items()},
     }
     return joined(found)

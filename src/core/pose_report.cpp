@@ -150,28 +150,32 @@ std::vector<PoseVerdict> verdictsOf(const std::vector<const PpfModel*>& models,
   return verdicts;
 }
 
-void addReliabilities(std::vector<DetectedPose>& poses)
+void addReliabilities(bool whole_cloud, std::vector<DetectedPose>& poses)
 {
   for (DetectedPose& pose : poses)
-    pose.reliability = assessReliability(pose).probability;
+  {
+    const Reliability reliability = assessReliability(pose, whole_cloud);
+    pose.reliability = reliability.probability;
+    pose.weakest = reliability.weakest;
+  }
 }
 
 /// Judges the standing poses: first as if nothing were usual, then by what those show that pass so.
 std::vector<PoseVerdict> judge(const std::vector<const PpfModel*>& models,
                                const DetectorConfig& config,
                                const std::vector<Ambiguity>& ambiguities,
-                               const std::vector<ClusterShare>& shares,
+                               const std::vector<ClusterShare>& shares, bool whole_cloud,
                                std::vector<DetectedPose>& poses)
 {
   DetectorConfig showing = config;
   showing.mismatch_test = true;
   showing.min_reliability = kShowsUsual;
-  addReliabilities(poses);
+  addReliabilities(whole_cloud, poses);
   std::vector<bool> shows;
   for (const PoseVerdict& verdict : verdictsOf(models, showing, ambiguities, shares, poses))
     shows.push_back(verdict.reason == UnreliableReason::kNone);
   setUsualShares(shows, poses);
-  addReliabilities(poses);
+  addReliabilities(whole_cloud, poses);
   return verdictsOf(models, config, ambiguities, shares, poses);
 }
 
@@ -278,7 +282,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
                                holdsOf(image, models, config, candidates, selected));
   addSpreads(models, config, result.clusters, shares, result.poses);
   const std::vector<PoseVerdict> verdicts =
-      judge(models, config, ambiguities, shares, result.poses);
+      judge(models, config, ambiguities, shares, image.whole_cloud, result.poses);
   for (std::size_t i = 0; i < result.poses.size(); ++i)
   {
     DetectedPose& pose = result.poses[i];

@@ -1,7 +1,6 @@
 #include "ppf_bin_picking/core/pose_verdict.hpp"
 
 #include "ppf_bin_picking/core/pca.hpp"
-#include "ppf_bin_picking/core/reliability.hpp"
 
 #include <cmath>
 
@@ -31,9 +30,9 @@ std::string usualShare(double usual)
 }
 
 /// What pulled the reliability down.
-std::string weaknessOf(const DetectedPose& pose, UnreliableReason weakest)
+std::string weaknessOf(const DetectedPose& pose)
 {
-  switch (weakest)
+  switch (pose.weakest)
   {
     case UnreliableReason::kRunnerUp:
       return rivalOf(pose);
@@ -106,9 +105,8 @@ PoseVerdict verdictOf(const DetectedPose& pose, bool rivals_known, const Cluster
                 std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
                 std::to_string(config.min_confirmed_px) + ")"};
   if (!config.mismatch_test || pose.reliability >= config.min_reliability) return {};
-  const UnreliableReason weakest = assessReliability(pose).weakest;
-  return {weakest, "right with a probability of " + percent(pose.reliability) +
-                       " only (min_reliability " + percent(config.min_reliability) +
-                       "): " + weaknessOf(pose, weakest)};
+  return {pose.weakest, "right with a probability of " + percent(pose.reliability) +
+                            " only (min_reliability " + percent(config.min_reliability) +
+                            "): " + weaknessOf(pose)};
 }
 }  // namespace ppf_bin_picking

@@ -130,6 +130,7 @@ RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<Reg
   const std::optional<PinholeCamera> camera = estimateCamera(cloud);
   result.image = camera ? imageOfOrganised(cloud, *camera, inside, near_z, options)
                         : imageOfPoints(cloud, inside, near_z, options);
+  result.image.whole_cloud = !roi;
   result.near_z_m = near_z;
   result.pixels_per_diameter = options.diameter_m * result.image.camera.fx / near_z;
   return result;

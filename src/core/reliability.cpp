@@ -9,17 +9,25 @@ namespace ppf_bin_picking
 {
 namespace
 {
+/// What a term counts.
+struct Weight
+{
+  double per_unit;       ///< Of the value.
+  double of_right_ones;  ///< Mean value of right poses.
+};
+
 /// One term of the sum whose logistic function is the probability.
 struct Term
 {
-  double value;          ///< Of the pose.
-  double weight;         ///< Per unit of the value.
-  double of_right_ones;  ///< Mean value of right poses.
+  double value;  ///< Of the pose.
   UnreliableReason reason;
+  Weight in_region;
+  Weight in_whole_cloud;
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kIntercept = -0.794;
+constexpr double kInterceptInRegion = -0.616;
+constexpr double kInterceptInWholeCloud = -3.337;
 
 // As in scripts/reliability_lib/usual.py: what is usual is fitted together with the weights.
 constexpr std::size_t kZeros = 5;  // beside the poses that show what is usual
@@ -29,30 +37,45 @@ std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), 0.031, 2.466, UnreliableReason::kLowScore},
-      {std::clamp(pose.margin, -0.2, 0.5), 5.802, 0.454, UnreliableReason::kRunnerUp},
-      {std::log10(std::max(pose.hold, 0.001)), 2.532, -1.112, UnreliableReason::kSlippage},
-      {pose.slide_share, -0.662, 0.170, UnreliableReason::kSlippage},
-      {std::min(pose.spread, 2.0), -0.334, 0.195, UnreliableReason::kSpread},
-      {std::max(pose.looked_through - pose.usual_looked_through, 0.0), -26.058, 0.008,
-       UnreliableReason::kLowScore},
-      {pose.goes_on, -5.454, 0.042, UnreliableReason::kSlippage},
-      {pose.claimed, -15.854, 0.001, UnreliableReason::kOverlap},
-      {std::log10(std::max(pose.confirmed_px, 30)), 1.522, 3.322, UnreliableReason::kLowScore},
-      {std::min(pose.visible_fraction, 1.0), 1.325, 0.800, UnreliableReason::kLowScore},
+      {std::log(score / (1 - score)), UnreliableReason::kLowScore, {0.104, 2.594}, {0.838, 2.849}},
+      {std::clamp(pose.margin, -0.2, 0.5),
+       UnreliableReason::kRunnerUp,
+       {6.074, 0.456},
+       {6.328, 0.459}},
+      {std::log10(std::max(pose.hold, 0.001)),
+       UnreliableReason::kSlippage,
+       {2.528, -1.095},
+       {2.330, -1.075}},
+      {pose.slide_share, UnreliableReason::kSlippage, {-0.665, 0.139}, {-2.157, 0.074}},
+      {std::min(pose.spread, 2.0), UnreliableReason::kSpread, {-0.019, 0.186}, {-2.564, 0.191}},
+      {std::max(pose.looked_through - pose.usual_looked_through, 0.0),
+       UnreliableReason::kLowScore,
+       {-27.122, 0.006},
+       {-14.949, 0.004}},
+      {pose.goes_on, UnreliableReason::kSlippage, {-5.363, 0.035}, {-5.250, 0.018}},
+      {pose.claimed, UnreliableReason::kOverlap, {-13.346, 0.001}, {-11.859, 0.001}},
+      {std::log10(std::max(pose.confirmed_px, 30)),
+       UnreliableReason::kLowScore,
+       {1.424, 3.165},
+       {1.637, 3.011}},
+      {std::min(pose.visible_fraction, 1.0),
+       UnreliableReason::kLowScore,
+       {1.209, 0.796},
+       {1.324, 0.805}},
   }};
 }
 }  // namespace
 
-Reliability assessReliability(const DetectedPose& pose)
+Reliability assessReliability(const DetectedPose& pose, bool whole_cloud)
 {
   Reliability reliability;
-  double sum = kIntercept;
+  double sum = whole_cloud ? kInterceptInWholeCloud : kInterceptInRegion;
   double worst = 0;
   for (const Term& term : termsOf(pose))
   {
-    sum += term.weight * term.value;
-    const double against = term.weight * (term.value - term.of_right_ones);
+    const Weight& weight = whole_cloud ? term.in_whole_cloud : term.in_region;
+    sum += weight.per_unit * term.value;
+    const double against = weight.per_unit * (term.value - weight.of_right_ones);
     if (against >= worst) continue;
     worst = against;
     reliability.weakest = term.reason;

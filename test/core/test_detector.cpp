@@ -1,4 +1,5 @@
 #include "ppf_bin_picking/core/detector.hpp"
+#include "ppf_bin_picking/core/reliability.hpp"
 
 #include "support/bracket_and_angle.hpp"
 #include "support/shapes.hpp"
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -233,6 +235,23 @@ TEST_F(DetectorTest, endsWhenToldToStop)
   const DetectionResult result = Detector(coarseConfig()).detect(cloud(), bracket_, roi_, &stop);
   EXPECT_EQ(result.status, DetectionStatus::kTimeLimit);
   EXPECT_TRUE(result.poses.empty());
+}
+
+TEST_F(DetectorTest, judgesAPoseByWhetherThereIsARegion)
+{
+  for (const bool whole_cloud : {false, true})
+  {
+    SCOPED_TRACE(whole_cloud);
+    const auto roi = whole_cloud ? std::nullopt : std::optional<RegionOfInterest>(roi_);
+    const DetectionResult result = Detector(coarseConfig()).detect(cloud(), bracket_, roi);
+    ASSERT_FALSE(result.poses.empty());
+    for (const DetectedPose& pose : result.poses)
+    {
+      EXPECT_EQ(pose.reliability, assessReliability(pose, whole_cloud).probability);
+      EXPECT_EQ(pose.weakest, assessReliability(pose, whole_cloud).weakest);
+      EXPECT_NE(pose.reliability, assessReliability(pose, !whole_cloud).probability);
+    }
+  }
 }
 
 TEST_F(DetectorTest, strayPointsChangeNothing)

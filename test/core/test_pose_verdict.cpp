@@ -68,7 +68,12 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
        "min_visible_share"},
       {[](DetectedPose& pose) { pose.confirmed_px = 3; }, UnreliableReason::kLowScore,
        "min_confirmed_px"},
-      {[](DetectedPose& pose) { pose.reliability = 0.2, pose.claimed = 0.5; },
+      {[](DetectedPose& pose)
+       {
+         pose.reliability = 0.2;
+         pose.claimed = 0.5;
+         pose.weakest = UnreliableReason::kOverlap;
+       },
        UnreliableReason::kOverlap, "min_reliability"}};
   for (const Case& one : cases)
   {

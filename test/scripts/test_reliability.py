@@ -12,9 +12,8 @@ import numpy as np
 PACKAGE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PACKAGE / "scripts"))
 
-from benchmark_lib.cases import Scene  # after the path that it is found on
-from benchmark_lib.programs import BenchmarkError
-from reliability_lib import regression, shiny, terms, training, usual
+from benchmark_lib.programs import BenchmarkError  # after the path that it is found on
+from reliability_lib import regression, shiny, terms, usual
 
 
 def known_problem(rows=40000, seed=3):
@@ -192,9 +191,10 @@ class FiguresTest(unittest.TestCase):
         self.assertAlmostEqual(precision, 2 / 3)
 
     def test_bins_hold_all_poses_with_their_means(self):
-        predicted, labels = np.array([0.0, 0.11, 0.19, 1.0]), np.array([0, 1, 0, 1])
-        bins = regression.reliability_bins(predicted, labels, np.array([1, 3, 1, 1]))
-        self.assertEqual([entry.count for entry in bins], [1, 2] + 7 * [0] + [1])
+        predicted = np.array([0.0, 0.11, 0.19, 0.95, 1.0])
+        labels, weights = np.array([0, 1, 0, 1, 1]), np.array([1, 3, 1, 1, 1])
+        bins = regression.reliability_bins(predicted, labels, weights)
+        self.assertEqual([entry.count for entry in bins], [1, 2] + 8 * [0] + [1, 0, 1])
         self.assertAlmostEqual(bins[1].predicted, (3 * 0.11 + 0.19) / 4)
         self.assertAlmostEqual(bins[1].observed, 0.75)
         self.assertTrue(math.isnan(bins[5].observed))
@@ -284,51 +284,6 @@ class ShinyTest(unittest.TestCase):
         np.testing.assert_array_equal(written[30:90, 30:50], 800)
 
 
-class TrainingTest(unittest.TestCase):
-    def test_each_part_is_looked_for_among_four_others(self):
-        parts = tuple("abcdefghijkl")
-        self.assertEqual(training.neighbours(parts, "k"), ["l", "b", "d", "g"])
-        for count in range(2, 12):
-            others = training.neighbours(parts[:count], "b")
-            self.assertTrue(others)
-            self.assertNotIn("b", others)
-            self.assertEqual(len(set(others)), len(others))
-
-    def test_the_plan_makes_the_scenes_that_foreign_parts_are_looked_for_in(self):
-        quick = training.Plan(("a", "b"), seeds=(1,), fills=(2,), presets=("industrial",))
-        for plan in (training.Plan(tuple("abcdefghijkl")), quick):
-            made = set(plan.plain()) | set(plan.shiny())
-            foreign = [pair for pairs in plan.foreign().values() for pair in pairs]
-            self.assertTrue(foreign)
-            for part, scene in foreign:
-                self.assertIn(scene, made)
-                self.assertNotEqual(part, scene.part)
-
-    def test_copies_are_made_of_the_cleaner_sensors(self):
-        plan = training.Plan(("a",))
-        self.assertEqual(len(plan.plain()), 18)
-        self.assertEqual(len(plan.shiny()), 12)
-        self.assertEqual(
-            training.ShinyScene(Scene("a", 24, "clean", 101)).name, "shiny-clean-24-101"
-        )
-
-    def test_a_pose_is_right_below_the_threshold_even_on_an_object_already_found(self):
-        judged = [
-            {"index": 2, "mssd_rel": 0.05, "verdict": "right"},
-            {"index": 0, "mssd_rel": 0.0999, "verdict": "duplicate"},
-            {"index": 1, "mssd_rel": 0.1, "verdict": "wrong"},
-            {"index": 3, "mssd_rel": None, "verdict": "wrong"},
-        ]
-        np.testing.assert_array_equal(training.labels_of(judged, 4, 0.1), [1, 0, 1, 0])
-        with self.assertRaises(ValueError):
-            training.labels_of(judged, 5, 0.1)
-
-    def test_foreign_poses_weigh_less(self):
-        sets = np.array(["own", "shiny", "foreign", "foreign, shiny"])
-        poses = training.Poses(np.zeros((4, 9)), np.zeros(4), sets, sets, sets, sets)
-        np.testing.assert_array_equal(poses.weights(), [1, 1, 0.2, 0.2])
-
-
 class TermsTest(unittest.TestCase):
     POSE = {
         "score": 0.5,
@@ -366,13 +321,16 @@ class TermsTest(unittest.TestCase):
 
     def test_the_code_has_a_line_a_term_with_weight_and_mean(self):
         model = regression.Model(-1.5, np.arange(len(terms.TERMS)) / 8)
-        lines = terms.code_of(model, np.arange(len(terms.TERMS)) * 10.0).splitlines()
-        self.assertEqual(lines[0], "constexpr double kIntercept = -1.500;")
+        other = regression.Model(2, np.arange(len(terms.TERMS)) / 4)
+        means = np.arange(len(terms.TERMS)) * 10.0
+        lines = terms.code_of([(model, means), (other, -means)]).splitlines()
+        self.assertEqual(lines[0], "constexpr double kInterceptInRegion = -1.500;")
+        self.assertEqual(lines[1], "constexpr double kInterceptInWholeCloud = 2.000;")
         self.assertEqual(
-            lines[3],
-            "      {std::clamp(pose.margin, -0.2, 0.5), 0.125, 10.000, UnreliableReason::kRunnerUp},",
+            lines[4],
+            "      {std::clamp(pose.margin, -0.2, 0.5), UnreliableReason::kRunnerUp, {0.125, 10.000}, {0.250, -10.000}},",
         )
-        self.assertEqual(len(lines), 2 + len(terms.TERMS))
+        self.assertEqual(len(lines), 3 + len(terms.TERMS))
 
 
 if __name__ == "__main__":

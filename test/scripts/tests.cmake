@@ -1,2 +1,9 @@
 # Tests of what the scripts in scripts/ are made of.
-set(scripts_tests test_ablation test_claim test_help test_loops test_reliability)
+set(scripts_tests
+    test_ablation
+    test_claim
+    test_help
+    test_loops
+    test_real_scan
+    test_reliability
+    test_reliability_scenes)

@@ -21,6 +21,7 @@ struct RangeImage
   std::vector<float> depth;              ///< Along z [m]; 0 without measurement.
   std::vector<Eigen::Vector3f> normals;  ///< Unit length, towards the camera; zero where unknown.
   std::vector<std::uint8_t> in_roi;  ///< 1 where the measured point lies in the region of interest.
+  bool whole_cloud = false;          ///< Without a region of interest: all points lie in it.
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * camera.width + u; }
   Eigen::Vector3f point(int u, int v) const

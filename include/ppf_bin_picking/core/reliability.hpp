@@ -20,10 +20,13 @@ struct Reliability
 /// by better poses, edges beyond which the surface goes on, visible share and confirmed pixels.
 ///
 /// Fitted on simulated scenes of the package's own parts, foreign objects and shiny surfaces among
-/// them; docs/reliability.md tells what it keeps of parts that it was not fitted on.
-/// Scores and shares are in [0, 1].
-/// @param pose  All fields but reliability, reliable and reason are read.
-Reliability assessReliability(const DetectedPose& pose);
+/// them; docs/reliability.md tells what it keeps of parts that it was not fitted on. Searches of
+/// the whole cloud have weights of their own: rims, walls and tables, which nothing keeps from
+/// being taken for parts there, look right in other terms than parts do. Scores and shares are in
+/// [0, 1].
+/// @param pose         All fields but reliability, weakest, reliable and reason are read.
+/// @param whole_cloud  Whether the pose was found without a region of interest.
+Reliability assessReliability(const DetectedPose& pose, bool whole_cloud);
 
 /// Poses that pass every gate and have this probability while nothing is usual show what is usual.
 constexpr double kShowsUsual = 0.8;

@@ -1,0 +1,56 @@
+"""The report: counts as Markdown."""
+
+import statistics
+
+from benchmark_lib.report import number, table
+
+from .scans import INSIDE, LEFT_OUT, NOISE_M, numbers
+
+IMAGE_PICTURE = "images/real_scan_image.png"
+CLOUD_PICTURE = "images/real_scan_cloud.png"
+WHOLE_PICTURE = "images/real_scan_whole_cloud.png"
+
+
+def with_mean(rows):
+    """The rows and their mean."""
+    means = [statistics.mean(column) for column in list(zip(*rows))[1:]]
+    return rows + [["**mean**", *[number(mean, 1) for mean in means]]]
+
+
+def write_page(facts, image_rows, cloud_rows):
+    """The whole page."""
+    low, high = INSIDE
+    image_heading = ["variant", "pins", "suspicious", "in the other bins"]
+    cloud_heading = ["variant", "in the bin", "suspicious", "whole cloud", "suspicious", "outside"]
+    return f"""# Pins in a real scan
+
+Reliable poses of a shiny pin in a depth image of four bins, of which one holds about 36 pins and the others none, and in a loose cloud of another bin
+with about 20, a point each millimetre on pins six thick. There is no truth: what is told is how many poses pass, how many of them `check_poses` finds suspicious, and
+how many lie where no pin can. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
+its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order. Written by
+
+    {facts["command"]}
+
+which keeps what is done in `{facts["folder"]}`. Commit {facts["commit"]}; {facts["machine"]}.
+
+## Depth image, each bin's inside as the region
+
+{table(image_heading, with_mean(image_rows))}
+As it is:
+
+![Poses over the depth image]({IMAGE_PICTURE})
+
+## Loose cloud
+
+In the bin: the region of interest is `{{min: {numbers(low)}, max: {numbers(high)}}}`, the bin's inside from just above its floor to well under its rim. Whole
+cloud: without a region; *outside* are the poses whose middle does not lie in that box, on the rim or a wall.
+
+{table(cloud_heading, with_mean(cloud_rows))}
+As it is, in the bin:
+
+![Poses in the bin over the loose cloud]({CLOUD_PICTURE})
+
+In the whole cloud:
+
+![Poses in the whole loose cloud]({WHOLE_PICTURE})
+"""

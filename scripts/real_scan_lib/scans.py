@@ -1,0 +1,137 @@
+"""The real scans, and the same as they might have come out as well: turned, with more noise, in another order."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import yaml
+from PIL import Image
+
+from benchmark_lib.clouds import read_cloud, write_cloud
+from compare_lib.comparison import decimal
+
+PART = "pins"  # also the name of the bin that holds it
+NOISE_M = 0.00005  # standard deviation added to the depth, of the order of the sensor's own
+LEFT_OUT = 0.03  # share of a loose cloud's points
+CLOUD_UNIT_M = 0.001  # of one_bin.pcd
+# Inside of its bin, in its camera's frame [m]: depth and height as those of the bins in bins.yaml, which are of the same
+# kind and stand as far away; the sides as far apart as its walls are.
+INSIDE = (np.array([-0.042, -0.065, 0.445]), np.array([0.040, 0.098, 0.4955]))
+
+
+@dataclass(frozen=True)
+class ImageScan:
+    """A depth image with a box around the inside of each bin."""
+
+    levels: np.ndarray
+    camera: dict  # as camera.yaml
+    regions: dict  # corners min, max by the bin's name; camera frame [m]
+
+    def turned(self):
+        """The camera a quarter turn about its axis: what was right is above."""
+        camera = {
+            **self.camera,
+            **{"width": self.camera["height"], "height": self.camera["width"]},
+            **{"fx": self.camera["fy"], "fy": self.camera["fx"]},
+            **{"cx": self.camera["cy"], "cy": self.camera["width"] - 1 - self.camera["cx"]},
+        }
+        regions = {
+            name: (
+                np.array([low[1], -high[0], low[2]]),
+                np.array([high[1], -low[0], high[2]]),
+            )
+            for name, (low, high) in self.regions.items()
+        }
+        return ImageScan(np.rot90(self.levels), camera, regions)
+
+    def noisy(self, seed):
+        """Gaussian noise on what is measured."""
+        sigma = NOISE_M / self.camera["depth_unit_m"]
+        noise = np.random.default_rng(seed).normal(0, sigma, self.levels.shape)
+        levels = np.clip(np.rint(self.levels + noise), 1, np.iinfo(np.uint16).max)
+        return replace(self, levels=np.where(self.levels > 0, levels, 0).astype(np.uint16))
+
+    def write(self, region, folder):
+        """A scene's folder for one of the bins."""
+        folder.mkdir(parents=True, exist_ok=True)
+        Image.fromarray(np.ascontiguousarray(self.levels)).save(folder / "depth.png")
+        lines = [f"{key}: {yaml_text(value)}\n" for key, value in self.camera.items()]
+        (folder / "camera.yaml").write_text("".join(lines))
+        low, high = self.regions[region]
+        (folder / "roi.yaml").write_text(f"min: {numbers(low)}\nmax: {numbers(high)}\n")
+
+
+@dataclass(frozen=True)
+class CloudScan:
+    """A loose cloud; metres, camera frame."""
+
+    points: np.ndarray
+    turn: np.ndarray  # 3 x 3, from the scan's camera
+
+    def turned(self, degrees):
+        """The camera turned about its axis."""
+        cosine, sine = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+        turn = np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
+        return CloudScan(self.points @ turn.T, turn @ self.turn)
+
+    def shuffled(self, seed):
+        """The points in another order."""
+        return replace(self, points=np.random.default_rng(seed).permutation(self.points))
+
+    def thinned(self, seed):
+        """Some of the points left out."""
+        kept = np.random.default_rng(seed).random(len(self.points)) >= LEFT_OUT
+        return replace(self, points=self.points[kept])
+
+    def inside(self, places):
+        """Which of the places (n x 3, in the cloud's frame) lie in the bin."""
+        low, high = INSIDE
+        back = np.asarray(places).reshape(-1, 3) @ self.turn  # by the inverse
+        return ((back >= low) & (back <= high)).all(axis=1)
+
+    def write(self, folder):
+        """A scene's folder, with the inside of the bin as region."""
+        folder.mkdir(parents=True, exist_ok=True)
+        write_cloud(self.points, folder / "cloud.pcd")
+        low, high = INSIDE
+        pose = np.eye(4)
+        pose[:3, :3] = self.turn
+        (folder / "roi.yaml").write_text(
+            f"min: {numbers(low)}\nmax: {numbers(high)}\npose: {numbers(pose.ravel())}\n"
+        )
+
+
+def yaml_text(value):
+    """Without exponent, which the reader of cameras does not take."""
+    return decimal(value) if isinstance(value, float) else value
+
+
+def numbers(values):
+    return f"[{', '.join(map(decimal, values))}]"
+
+
+def image_draws(data):
+    """Variants of the depth image by name; the first is as it is."""
+    with Image.open(data / "depth.png") as image:
+        levels = np.array(image)
+    regions = yaml.safe_load((data / "bins.yaml").read_text())["regions"]
+    boxes = {name: (np.array(box["min"]), np.array(box["max"])) for name, box in regions.items()}
+    scan = ImageScan(levels, yaml.safe_load((data / "camera.yaml").read_text()), boxes)
+    draws = {"as it is": scan}
+    turned = scan
+    for degrees in (90, 180, 270):
+        turned = turned.turned()
+        draws[f"turned by {degrees} degrees"] = turned
+    for seed in (1, 2, 3, 4):
+        draws[f"{NOISE_M * 1000:g} mm of noise, seed {seed}"] = scan.noisy(seed)
+    return draws
+
+
+def cloud_draws(data):
+    """Variants of the loose cloud by name; the first is as it is."""
+    scan = CloudScan(read_cloud(data / "one_bin.pcd") * CLOUD_UNIT_M, np.eye(3))
+    draws = {"as it is": scan, "in another order": scan.shuffled(1)}
+    for degrees in (15, 30, 45, 60, 90, 180):
+        draws[f"turned by {degrees} degrees"] = scan.turned(degrees)
+    for seed in range(1, 8):
+        draws[f"{LEFT_OUT * 100:g} % left out, seed {seed}"] = scan.thinned(seed)
+    return draws
