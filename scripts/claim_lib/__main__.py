@@ -10,7 +10,7 @@ from benchmark_lib.detection import Bench, write_configs
 from benchmark_lib.programs import provenance, run_script
 
 from .precision import Ranking
-from .report import NUMBERS, write_page
+from .report import NUMBERS, Measured, write_page
 
 # Parts on which surfaces slide over one another or hide what tells poses apart, and parts on which they do not.
 GROUPS = {
@@ -49,43 +49,49 @@ def scenes_of(group, most):
     return [Scene(part, FILL, PRESET, seed) for part in GROUPS[group] for seed in seeds]
 
 
-def ranking(bench, variant, judged, scenes, number):
-    """All poses of a variant: reliable ones first; then by a number of each."""
+def judged_poses(bench, variant, judged, scenes):
+    """Of each scene its targets and its poses, each as it was written and what evaluate_poses calls it. Those on parts too
+    hidden to be targets are left out."""
     by_name = {
         (part, scene["scene"]): scene
         for part, judged_scenes in judged["scenes"].items()
         for scene in judged_scenes
     }
-    rows = []
+    result = []
     for scene in scenes:
         one = by_name[scene.part, scene.name]
-        poses = json.loads(bench.result_path(variant, scene).read_text())["poses"]
-        rows.append(
+        written = json.loads(bench.result_path(variant, scene).read_text())["poses"]
+        poses = [(written[pose["index"]], pose["verdict"]) for pose in one["poses"]]
+        poses = [(pose, verdict) for pose, verdict in poses if verdict != "ignored"]
+        result.append((one["targets"], poses))
+    return result
+
+
+def ranking(found, number):
+    """All poses of a variant: reliable ones first; then by a number of each."""
+    return Ranking.of(
+        [
             (
-                one["targets"],
-                [
-                    (
-                        (poses[pose["index"]]["reliable"], poses[pose["index"]][number]),
-                        pose["verdict"] == "right",
-                    )
-                    for pose in one["poses"]
-                    if pose["verdict"] != "ignored"
-                ],
+                targets,
+                [((p["reliable"], p[number]), verdict == "right") for p, verdict in poses],
             )
-        )
-    return Ranking.of(rows)
+            for targets, poses in found
+        ]
+    )
 
 
 def measure(bench, groups):
-    """Of each group and variant the rankings by number and what evaluate_poses says."""
+    """Of each group and variant a Measured."""
     figures = {}
     for group, scenes in groups.items():
         bench.simulate_all(scenes)
         for variant in VARIANTS:
             bench.detect_all(variant, scenes)
             judged = bench.evaluate(group, variant, scenes)
-            ranked = {number: ranking(bench, variant, judged, scenes, number) for number in NUMBERS}
-            figures.setdefault(group, {})[variant] = (ranked, judged["summary"])
+            found = judged_poses(bench, variant, judged, scenes)
+            ranked = {number: ranking(found, number) for number in NUMBERS}
+            poses = [pose for _, listed in found for pose in listed]
+            figures.setdefault(group, {})[variant] = Measured(ranked, judged["summary"], poses)
     return figures
 
 

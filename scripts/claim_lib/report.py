@@ -2,13 +2,19 @@
 
 import json
 import math
+from collections import Counter
+from typing import NamedTuple
 
-from benchmark_lib.cases import VARIANT_TEXTS, VARIANTS
+import numpy as np
+import yaml
+
+from benchmark_lib.cases import PACKAGE, VARIANT_TEXTS, VARIANTS
 from benchmark_lib.report import number, table
 
 from .precision import REPEATS, bootstrap
 
-RECALLS = (0.3, 0.5, 0.7)
+RECALLS = (0.3, 0.5, 0.7, 0.9)
+MAX_SPREAD = yaml.safe_load((PACKAGE / "config/detector.yaml").read_text())["max_spread_rel"]
 NUMBERS = ("score", "reliability")  # that rank the poses of a variant
 PAIRS = (
     ("spread", "original"),
@@ -19,13 +25,21 @@ PAIRS = (
 )
 
 
+class Measured(NamedTuple):
+    """A variant's figures on a group's scenes."""
+
+    ranked: dict  # a Ranking by each of NUMBERS
+    summary: dict  # as evaluate_poses writes it
+    poses: list  # of all scenes: a pose as detect_poses wrote it, and its verdict
+
+
 def precision_table(figures):
     """Precision at each recall by variant and the number that ranks its poses."""
     rows = [
         [f"`{variant}` by {key}"]
         + [number(None if math.isnan(p) else p, 4) for p in ranked[key].precision_at(RECALLS)]
         + [number(summary["ALL"][name], 3) for name in ("AP", "precision", "recall")]
-        for variant, (ranked, summary) in figures.items()
+        for variant, (ranked, summary, _) in figures.items()
         for key in NUMBERS
     ]
     heading = ["variant", *[f"at recall {recall}" for recall in RECALLS]]
@@ -41,7 +55,7 @@ def difference_table(figures):
     rows = []
     for better, worse in PAIRS:
         for key in NUMBERS:
-            first, second = figures[worse][0][key], figures[better][0][key]
+            first, second = figures[worse].ranked[key], figures[better].ranked[key]
             gains = second.precision_at(RECALLS) - first.precision_at(RECALLS)
             ends = bootstrap(first, second, RECALLS)
             cells = [f"{g:+.4f} ({interval(low, high)})" for g, low, high in zip(gains, *ends)]
@@ -51,17 +65,41 @@ def difference_table(figures):
 
 def part_table(figures):
     """AP, precision and recall by part and variant."""
-    parts = [part for part in figures["default"][1] if part != "ALL"]
+    parts = [part for part in figures["default"].summary if part != "ALL"]
     heading = ["part"] + [f"{variant} {key}" for variant in figures for key in ("AP", "P", "R")]
     rows = [
         [part]
         + [
             number(summary[part][key], 3)
-            for _, summary in figures.values()
+            for _, summary, _ in figures.values()
             for key in ("AP", "precision", "recall")
         ]
         for part in parts
     ]
+    return table(heading, rows)
+
+
+def reason_table(poses):
+    """What the detector makes of right and of wrong poses."""
+    counts = Counter(
+        (pose["reason"] or "none: reliable", verdict)
+        for pose, verdict in poses
+        if verdict in ("wrong", "right")
+    )
+    reasons = sorted({reason for reason, _ in counts})
+    rows = [[reason, counts[reason, "wrong"], counts[reason, "right"]] for reason in reasons]
+    return table(["turned down for", "wrong", "right"], rows)
+
+
+def spread_table(poses):
+    """How the hypotheses of right and of wrong poses spread, all of which the score alone calls reliable."""
+    rows = []
+    for verdict in ("wrong", "right"):
+        spreads = [p["spread"] for p, found in poses if p["reliable"] and found == verdict]
+        ends = np.quantile(spreads, (0.5, 0.9)) if spreads else (None, None)
+        above = sum(spread > MAX_SPREAD for spread in spreads)
+        rows.append([verdict, len(spreads), *[number(end, 2) for end in ends], above])
+    heading = ["poses", "count", "median spread", "90 % are below", "above max_spread_rel"]
     return table(heading, rows)
 
 
@@ -106,5 +144,8 @@ def write_page(facts, figures):
             difference_table(variants),
             "Part by part (P, R: precision and recall of the poses called reliable):\n\n"
             + part_table(variants),
+            "What `default` makes of its poses:\n\n" + reason_table(variants["default"].poses),
+            f"How far the hypotheses of the poses that `coverage` calls reliable spread, in diameters (max_spread_rel: {MAX_SPREAD}):\n\n"
+            + spread_table(variants["coverage"].poses),
         ]
     return "\n".join(sections)

@@ -26,10 +26,14 @@ def percentile(values):
     return number(p95(values) if values else None, 0)
 
 
+def largest(values):
+    return number(max(values, default=None), 0)
+
+
 def whole_table(figures):
     """One line a peer: times and what its poses are worth."""
-    heading = ["detector", "scenes", "failed", "median ms", "p95 ms", "first ms", "training ms"]
-    heading += ["cores busy", "scene points", "AP", "precision", "recall"]
+    heading = ["detector", "scenes", "failed", "median ms", "p95 ms", "largest ms", "first ms"]
+    heading += ["training ms", "cores busy", "peak MB", "scene points", "AP", "precision", "recall"]
     rows = []
     for peer, figure in figures.items():
         results = done(figures, peer).values()
@@ -38,9 +42,10 @@ def whole_table(figures):
         summary = figure["summary"]
         rows.append(
             [peer, len(figure["scenes"]), len(figure["scenes"]) - len(results)]
-            + [median(whole), percentile(whole), median(first)]
+            + [median(whole), percentile(whole), largest(whole), median(first)]
             + [median(result["train_ms"] for result in results)]
             + [median((result["cores"] for result in results), 2)]
+            + [largest(result["peak_mb"] for result in results)]
             + [median(result["points"] for result in results)]
             + [number(summary[key], 3) for key in ("AP", "precision", "recall")]
         )
@@ -131,7 +136,7 @@ def settings(facts):
 PCL and OpenCV are given the region of interest with normals in a voxel grid of 0.02 diameters; the time that this takes is not
 counted. They group poses within 0.1 diameters and 20 degrees, as this detector does, since their own thresholds are lengths without
 regard to the part. Neither tells reliable poses from others: all are counted as reliable. `cores busy` is the processor's time over
-the clock's while a detection ran, on all threads.
+the clock's while a detection ran, on all threads. `peak MB` is the most memory that the process of any detection held, with program, cloud and model.
 """
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
+from claim_lib import report
 from claim_lib.precision import Ranking, bootstrap
 
 
@@ -69,6 +70,30 @@ class Bootstrap(unittest.TestCase):
     def test_tells_nothing_of_a_recall_that_is_not_reached(self):
         ranked = ranking((4, [(0.9, True)]))
         self.assertTrue(np.isnan(bootstrap(ranked, ranked, [0.9])).all())
+
+
+def pose(reason, spread, verdict):
+    """As written by detect_poses, with its verdict."""
+    return {"reason": reason, "reliable": not reason, "spread": spread}, verdict
+
+
+class Tables(unittest.TestCase):
+    def test_each_reason_counts_what_it_turns_down(self):
+        poses = [pose("", 0.1, "right"), pose("", 0.1, "right"), pose("SPREAD", 2, "wrong")]
+        poses += [pose("SPREAD", 2, "right"), pose("SLIPPAGE", 0, "duplicate")]
+        lines = report.reason_table(poses).splitlines()
+        self.assertIn("| SPREAD | 1 | 1 |", lines)
+        self.assertIn("| none: reliable | 0 | 2 |", lines)
+        self.assertEqual(len(lines), 4)  # a second pose on a part is neither
+
+    def test_spreads_are_those_of_poses_called_reliable(self):
+        high = report.MAX_SPREAD + 0.1
+        poses = [pose("", spread, "right") for spread in (0.1, 0.2, 0.3, high)]
+        poses += [pose("LOW_SCORE", 9, "right")]
+        lines = report.spread_table(poses).splitlines()
+        self.assertIn("| wrong | 0 | - | - | 0 |", lines)
+        self.assertTrue(lines[-1].startswith("| right | 4 | 0.25 | "), lines)
+        self.assertTrue(lines[-1].endswith(" | 1 |"), lines)
 
 
 if __name__ == "__main__":

@@ -96,6 +96,7 @@ void writeResult(const std::string& path, const PeerResult& peer, double train_s
   root["failure"] = failure;
   root["cores"] = peer.cores;
   root["points"] = peer.points;
+  root["peak_mb"] = peer.peak_mb;
   root["runs_ms"] = nlohmann::json::array();
   for (const StageTime& run : peer.runs)
     root["runs_ms"].push_back(run.seconds * 1000);
@@ -111,7 +112,9 @@ void runScene(const std::string& name, const std::string& folder, const Options&
   {
     const PeerScene scene = loadPeerScene(folder, part, peer);
     restartLimit(options.limit_s);
-    writeResult(path, peer.detect(scene), train_s, "");
+    PeerResult found = peer.detect(scene);
+    found.peak_mb = peakMemory_mb();
+    writeResult(path, found, train_s, "");
   };
   const std::string failure = runContained(options.limit_s, detect);
   if (!failure.empty()) writeResult(path, {}, train_s, failure);

@@ -1,5 +1,6 @@
 #include "contained.hpp"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,6 +56,14 @@ std::string runContained(unsigned limit_s, const std::function<void()>& work)
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::runtime_error(std::string("waitpid: ") + std::strerror(errno));
   return failureOf(status, limit_s);
+}
+
+double peakMemory_mb()
+{
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0)
+    throw std::runtime_error(std::string("getrusage: ") + std::strerror(errno));
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 void restartLimit(unsigned limit_s)

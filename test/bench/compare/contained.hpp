@@ -12,6 +12,9 @@ namespace ppf_bin_picking
 /// @return How the child failed, as a part of a sentence; empty if its work ended.
 std::string runContained(unsigned limit_s, const std::function<void()>& work);
 
+/// The most memory that this process has held so far, what it shares with its parent among it [MB].
+double peakMemory_mb();
+
 /// Begins the child's time limit again. To be called by work.
 void restartLimit(unsigned limit_s);
 }  // namespace ppf_bin_picking

@@ -45,6 +45,7 @@ struct PeerResult
   std::vector<StageTime> runs;  ///< Of a repeated detection, each whole one, in order.
   double cores = 0;             ///< Seconds of the processor in each second of the detection.
   std::size_t points = 0;       ///< Of the scene, as sampled.
+  double peak_mb = 0;           ///< Of the process with cloud and model, at most so far [MB].
 };
 
 class Peer
