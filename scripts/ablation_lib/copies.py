@@ -51,13 +51,18 @@ def copy_part(source, folder):
     copy_files(source, folder, [path.name for path in files_in(source)])
 
 
-def add_noise(path, unit_m, seed):
-    """Gaussian noise on what is measured."""
-    with Image.open(path) as image:
-        levels = np.array(image)
+def with_noise(levels, unit_m, seed):
+    """Gaussian noise on what is measured in a depth image."""
     noise = np.random.default_rng(seed).normal(0, NOISE_M / unit_m, levels.shape)
     noisy = np.clip(np.rint(levels + noise), 1, np.iinfo(np.uint16).max)
-    Image.fromarray(np.where(levels > 0, noisy, 0).astype(np.uint16)).save(path)
+    return np.where(levels > 0, noisy, 0).astype(np.uint16)
+
+
+def add_noise(path, unit_m, seed):
+    """The same to a file."""
+    with Image.open(path) as image:
+        levels = np.array(image)
+    Image.fromarray(with_noise(levels, unit_m, seed)).save(path)
 
 
 def copy_bins(data, bench, seeds):
@@ -105,13 +110,14 @@ def reliable_poses(bench, variant, scene):
     return sum(pose["reliable"] for pose in result["poses"])
 
 
-def suspicious_poses(bench, variant, scene):
-    """How many of the reliable poses check_poses finds suspicious."""
+def suspicious_poses(bench, variant, scene, *options):
+    """How many of the reliable poses check_poses finds suspicious. options: further ones of it."""
     printed = run(
         "check_poses",
         bench.result_path(variant, scene),
         *("--part", bench.part_folder(scene.part) / "part.yaml"),
         *("--config", bench.configs[variant]),
         *bench.scene_arguments(scene),
+        *options,
     )
     return int(printed.splitlines()[-1].split()[-2])

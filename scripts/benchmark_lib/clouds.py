@@ -16,14 +16,15 @@ def write_cloud(points, path):
 
 def read_cloud(path):
     """The points of a binary file all of whose fields are floats; n x 3, in the file's unit."""
-    content = path.read_bytes()
-    head, _, body = content.partition(b"DATA binary\n")
+    head, marker, body = path.read_bytes().partition(b"DATA binary\n")
     entries = {}
     for line in head.decode("ascii", errors="replace").splitlines():
         key, _, value = line.partition(" ")
         entries[key] = value.split()
     fields = entries.get("FIELDS", [])
     simple = set(entries.get("SIZE", [])) == {"4"} and set(entries.get("TYPE", [])) == {"F"}
-    if fields[:3] != ["x", "y", "z"] or not simple or set(entries.get("COUNT", "1")) != {"1"}:
-        raise BenchmarkError(f"{path} is no binary PCD file of floats that begin with x y z.")
+    simple = simple and set(entries.get("COUNT", "1")) == {"1"} and bool(marker)
+    points = int(entries.get("POINTS", ["0"])[0])
+    if fields[:3] != ["x", "y", "z"] or not simple or len(body) != points * len(fields) * 4:
+        raise BenchmarkError(f"{path} is no whole binary PCD file of floats that begin with x y z.")
     return np.frombuffer(body, "<f4").reshape(-1, len(fields))[:, :3].astype(float)

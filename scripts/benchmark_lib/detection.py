@@ -115,6 +115,7 @@ class Bench:
             *self.variant_files(variant),
             self.scene_key(scene),
             self.part_digest(part),
+            *[getattr(word, "name", word) for word in self.scene_arguments(scene)],
             program_digest("detect_poses"),
         )
         return once(path, key, lambda: self.detect_now(variant, scene, part, path))

@@ -8,13 +8,12 @@ from PIL import Image
 
 from benchmark_lib.cases import Scene
 from benchmark_lib.detection import Bench
+from benchmark_lib.meshes import FACET, read_facets
 
 PART = "bracket"
 COUNT = 16  # parts, where these are not what differs
 PRESET = "industrial"
 SEED = 401
-# A triangle of a binary STL file, after a head of 80 bytes and their number.
-FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 class Copy:
@@ -97,7 +96,7 @@ class Scenes:
         source, folder = self.bench.part_folder(PART), self.folder / f"cut-{times}"
         folder.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source / "part.yaml", folder / "part.yaml")
-        facets = np.fromfile(source / "model.stl", dtype=FACET, offset=84)
+        facets = read_facets(source / "model.stl")
         corners = facets["corners"].astype(float)
         for _ in range(times):
             corners = cut_into_four(corners)

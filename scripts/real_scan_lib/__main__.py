@@ -9,6 +9,7 @@ from benchmark_lib.programs import BenchmarkError, provenance, run_script
 
 from .measurement import RealScan, in_clouds, in_images
 from .report import CLOUD_PICTURE, IMAGE_PICTURE, WHOLE_PICTURE, write_page
+from .scans import cloud_draws, image_draws
 
 
 def arguments():
@@ -30,8 +31,8 @@ def work(options):
         raise BenchmarkError(f"{data / 'bins.yaml'} is missing: name the data folder with --data.")
     facts = {**provenance("scripts/real_scan"), "folder": options.folder}
     bench = RealScan(options.folder.resolve(), data)
-    image_rows, image = in_images(bench, data)
-    cloud_rows, (inside, whole) = in_clouds(bench, data)
+    image_rows, image = in_images(bench, image_draws(data))
+    cloud_rows, (inside, whole) = in_clouds(bench, cloud_draws(data))
     for scene, picture in ((image, IMAGE_PICTURE), (inside, CLOUD_PICTURE), (whole, WHOLE_PICTURE)):
         bench.draw(scene, options.report.resolve().parent / picture)
     options.report.write_text(write_page(facts, image_rows, cloud_rows))

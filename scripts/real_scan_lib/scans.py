@@ -6,11 +6,10 @@ import numpy as np
 import yaml
 from PIL import Image
 
+from ablation_lib.copies import NOISE_M, with_noise
 from benchmark_lib.clouds import read_cloud, write_cloud
 from compare_lib.comparison import decimal
 
-PART = "pins"  # also the name of the bin that holds it
-NOISE_M = 0.00005  # standard deviation added to the depth, of the order of the sensor's own
 LEFT_OUT = 0.03  # share of a loose cloud's points
 CLOUD_UNIT_M = 0.001  # of one_bin.pcd
 # Inside of its bin, in its camera's frame [m]: depth and height as those of the bins in bins.yaml, which are of the same
@@ -45,10 +44,7 @@ class ImageScan:
 
     def noisy(self, seed):
         """Gaussian noise on what is measured."""
-        sigma = NOISE_M / self.camera["depth_unit_m"]
-        noise = np.random.default_rng(seed).normal(0, sigma, self.levels.shape)
-        levels = np.clip(np.rint(self.levels + noise), 1, np.iinfo(np.uint16).max)
-        return replace(self, levels=np.where(self.levels > 0, levels, 0).astype(np.uint16))
+        return replace(self, levels=with_noise(self.levels, self.camera["depth_unit_m"], seed))
 
     def write(self, region, folder):
         """A scene's folder for one of the bins."""

@@ -7,26 +7,24 @@ import yaml
 from PIL import Image
 
 from benchmark_lib.clouds import write_cloud
-from growth_lib.scenes import FACET
+from benchmark_lib.meshes import bounds_m
 
 PIXELS = (26, 60)  # along the part's longest side
-MM = 0.001  # unit of the package's meshes
 COPIED = ("camera.yaml", "depth.png", "gt.json", "roi.yaml")
 CLOUD = "cloud.pcd"
 
 
-def longest_side_m(mesh):
-    """Of the box around a mesh of the package."""
-    corners = np.fromfile(mesh, dtype=FACET, offset=84)["corners"].reshape(-1, 3)
-    return float(np.ptp(corners, axis=0).max()) * MM
+def step_of(part_px, rng):
+    """Every so many-th pixel is taken: a part of so many pixels has a number within PIXELS left, if that can be."""
+    wanted_px = np.exp(rng.uniform(*np.log(PIXELS)))
+    least, most = np.ceil(part_px / PIXELS[1]), np.floor(part_px / PIXELS[0])
+    return int(max(1, least, min(most, round(part_px / wanted_px))))
 
 
 def coarse_points(depth_m, camera, part_m, rng):
     """Every so many-th point of a depth image in random order; metres, camera frame."""
     seen = depth_m > 0
-    part_px = part_m * camera["fx"] / np.median(depth_m[seen])
-    wanted_px = np.exp(rng.uniform(*np.log(PIXELS)))
-    step = max(1, int(part_px / wanted_px))
+    step = step_of(part_m * camera["fx"] / np.median(depth_m[seen]), rng)
     first_row, first_column = rng.integers(0, step, 2)
     chosen = np.zeros_like(seen)
     chosen[first_row::step, first_column::step] = True
@@ -46,12 +44,13 @@ def write_same_scene(source, folder):
 
 
 def write_coarse_scene(source, folder):
-    """The same with a coarse cloud beside the depth image. The copy's place in the data set is the seed."""
+    """The same with a coarse cloud beside the depth image. The scene's place in its data set is the seed."""
     write_same_scene(source, folder)
     camera = yaml.safe_load((source / "camera.yaml").read_text())
     with Image.open(source / "depth.png") as image:
         depth_m = np.array(image) * camera["depth_unit_m"]
-    seed = zlib.crc32(f"{folder.parent.name}/{folder.name}".encode())
-    part_m = longest_side_m(source.parent / "model.stl")
+    seed = zlib.crc32(f"{source.parent.name}/{source.name}".encode())
+    low, high = bounds_m(source.parent / "part.yaml")
+    part_m = float((high - low).max())
     points = coarse_points(depth_m, camera, part_m, np.random.default_rng(seed))
     write_cloud(points, folder / CLOUD)

@@ -27,6 +27,10 @@ from .training import (
 from .usual import MAX_ROUNDS, MOST_USUAL, SETTINGS, SHOWS_USUAL, ZEROS
 
 DEFAULT_THRESHOLD = SETTINGS["min_reliability"]
+TITLES = {
+    "region": "Searches within a region of interest",
+    "whole_cloud": "Searches of the whole cloud",
+}
 THRESHOLDS = sorted({0.5, 0.8, DEFAULT_THRESHOLD, 0.95, 0.98})
 
 
@@ -49,7 +53,11 @@ class Fitted:
     @property
     def picture(self):
         """Path relative to the page."""
-        return f"images/reliability_{self.name.split()[-1]}.png"
+        return f"images/reliability_{self.name}.png"
+
+    @property
+    def title(self):
+        return TITLES[self.name]
 
     def rows(self, name):
         """Which poses are of this set."""
@@ -97,6 +105,18 @@ def threshold_table(fitted):
         rows.append(row)
     heading = [f"{name} {key}" for name in fitted.judged for key in ("kept", "precision")]
     return table(["at least", *heading, *[f"{name} passing" for name in FOREIGN]], rows)
+
+
+def passing_table(fitted):
+    """What the reliability and the other gates let through together, of all sets."""
+    passing = fitted.poses.gates & (fitted.predicted >= DEFAULT_THRESHOLD)
+    rows = []
+    for name in FITS[fitted.name]:
+        labels = fitted.poses.labels[fitted.rows(name)]
+        passed = passing[fitted.rows(name)]
+        rows.append([name, int(labels.sum()), int(labels[passed].sum())])
+        rows[-1] += [int(passed.sum() - labels[passed].sum())]
+    return table(["set", "right", "right ones passing", "wrong ones passing"], rows)
 
 
 def part_table(fitted, threshold):
@@ -151,7 +171,7 @@ def draw_diagram(fitted, path):
         left = [entry.low + (k + 1) * width for entry, width in zip(bins, widths)]
         counts.bar(left, [entry.count for entry in bins], widths)
     shares.set(ylabel="share of right poses", xlim=(0, 1), ylim=(0, 1.01))
-    shares.set_title(fitted.name, fontsize="medium")
+    shares.set_title(fitted.title, fontsize="medium")
     shares.legend(frameon=False)
     shares.grid(linewidth=0.3)
     counts.set(xlabel="predicted probability, by the model of the other parts", ylabel="poses")
@@ -197,29 +217,35 @@ Parts {", ".join(plan.parts)}; seeds {", ".join(map(str, plan.seeds))}, {", ".jo
 - **coarse**: the same in clouds of points without order, as coarse as that of a simple sensor: every so many-th pixel of the scenes of the sensors
   {" and ".join(plan.used(COARSE_PRESETS))}, {PIXELS[0]} to {PIXELS[1]} along the part's longest side (`scripts/reliability_lib/coarse.py`).
 - **open**: the same in the scenes of the sensors {" and ".join(plan.used(OPEN_PRESETS))} without their region of interest: the bin's walls and rim and the table
-  are in sight. **open, coarse**: the coarse clouds without it.
+  are in sight. **open, coarse**: the clouds of `coarse` without it.
 - **foreign**: poses of each part in scenes of {plan.foreign_fill()} other parts, those {", ".join(map(str, FOREIGN_SHIFTS))} places further in the list; all of
   them are wrong. They weigh {FOREIGN_WEIGHT}, as a bin rarely holds other parts.
 
-Every figure below is for poses of a part left out of the fit: one fit a part, judged on the part that it does not
-know. *Kept* is the share of the right poses that have at least this probability, *precision* the share of right ones among the poses that have.
+In the fit for searches of the whole cloud `shiny`, `foreign` and `foreign, shiny` are the poses found within a region, with less weight: poses of shiny parts and on other
+parts look the same there, and the open scenes hold none.
+
+How well the probabilities hold is told for poses of a part left out of the fit: one fit a part, judged on the part that it does not know. *Kept* is
+the share of the right poses that have at least this probability, *precision* the share of right ones among the poses that have; the other gates are not asked.
 """
 
 
 def fit_section(fitted):
     """One fit's tables."""
-    return f"""## Poses found {fitted.name}
+    return f"""## {fitted.title}
 
 {count_table(fitted)}
 {threshold_table(fitted)}
-Part by part at {DEFAULT_THRESHOLD}, the default of `min_reliability`:
+With a probability of {DEFAULT_THRESHOLD}, the default of `min_reliability`, and through all other gates while nothing is usual:
+
+{passing_table(fitted)}
+Part by part at {DEFAULT_THRESHOLD}:
 
 {part_table(fitted, DEFAULT_THRESHOLD)}
 Whether the probability is one: of the poses with a probability in each range, the mean of it and the share of right ones. The last columns
 are all sets as the fit weights them.
 
 {diagram_table(fitted)}
-![Reliability diagram of poses found {fitted.name}]({fitted.picture})
+![Reliability diagram: {fitted.title.lower()}]({fitted.picture})
 
 The fit to all parts; intercept {fitted.model.intercept:.3f}.
 

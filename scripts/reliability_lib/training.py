@@ -9,6 +9,7 @@ from typing import Callable
 import numpy as np
 
 from benchmark_lib.cases import PRESETS, Scene
+from benchmark_lib.clouds import write_cloud
 from benchmark_lib.detection import Bench
 from benchmark_lib.programs import Progress, digest, once
 
@@ -26,13 +27,13 @@ COARSE_PRESETS = ("clean", "industrial")  # the noise of low_cost is that of fin
 # Places in the list of parts between the part looked for and the one that is there.
 FOREIGN_SHIFTS = (1, 3, 5, 8)
 FOREIGN_WEIGHT = 0.2  # a bin rarely holds other parts
-BORROWED_WEIGHT = 0.2  # of shiny parts within a region, where the whole cloud is searched
+BORROWED_WEIGHT = 0.2  # of poses found within a region, in the fit for searches of the whole cloud
 VARIANT = "default"
 FOREIGN = {"foreign": FOREIGN_WEIGHT, "foreign, shiny": FOREIGN_WEIGHT}
-# Name of each fit, with its sets of poses and their weights.
+# Sets of poses of each fit and their weights.
 FITS = {
-    "within a region of interest": {"own": 1.0, "shiny": 1.0, "coarse": 1.0, **FOREIGN},
-    "in the whole cloud": {"open": 1.0, "open, coarse": 1.0, "shiny": BORROWED_WEIGHT, **FOREIGN},
+    "region": {"own": 1.0, "shiny": 1.0, "coarse": 1.0, **FOREIGN},
+    "whole_cloud": {"open": 1.0, "open, coarse": 1.0, "shiny": BORROWED_WEIGHT, **FOREIGN},
 }
 
 
@@ -58,22 +59,26 @@ class Kind:
 
     write: Callable  # a copy, from the folder of the scene and its own
     presets: tuple  # of the scenes that are copied
-    fills: tuple
+    fills: tuple = ()  # the same; empty: all
     loose: bool = False  # looked for in a cloud without order, not in the depth image
-    open: bool = False  # looked for without the region of interest
+    whole_cloud: bool = False  # looked for without the region of interest
 
     @property
-    def module(self):
-        """The file that decides what a copy holds."""
-        return Path(inspect.getfile(self.write))
+    def sources(self):
+        """The files that decide what a copy holds."""
+        return [Path(inspect.getfile(function)) for function in (self.write, write_cloud)]
+
+    def is_of(self, scene):
+        """Whether a scene is copied."""
+        return scene.preset in self.presets and (not self.fills or scene.count in self.fills)
 
 
 KINDS = {
-    "shiny": Kind(shiny.write_shiny_scene, SHINY_PRESETS, FILLS),
+    "shiny": Kind(shiny.write_shiny_scene, SHINY_PRESETS),
     "coarse": Kind(coarse.write_coarse_scene, COARSE_PRESETS, COARSE_FILLS, loose=True),
-    "open": Kind(coarse.write_same_scene, OPEN_PRESETS, FILLS, open=True),
+    "open": Kind(coarse.write_same_scene, OPEN_PRESETS, whole_cloud=True),
     "open, coarse": Kind(
-        coarse.write_coarse_scene, COARSE_PRESETS, COARSE_FILLS, loose=True, open=True
+        coarse.write_coarse_scene, COARSE_PRESETS, COARSE_FILLS, loose=True, whole_cloud=True
     ),
 }
 
@@ -102,7 +107,7 @@ class Training(Bench):
 
     def scene_key(self, scene):
         if isinstance(scene, ChangedScene):
-            return digest(super().scene_key(scene.source), scene, KINDS[scene.kind].module)
+            return digest(super().scene_key(scene.source), scene, *KINDS[scene.kind].sources)
         return super().scene_key(scene)
 
     def scene_arguments(self, scene):
@@ -110,7 +115,7 @@ class Training(Bench):
             return super().scene_arguments(scene)
         kind, folder = KINDS[scene.kind], self.scene_path(scene)
         image = ("--depth", folder / "depth.png", "--camera", folder / "camera.yaml")
-        region = () if kind.open else ("--roi", folder / "roi.yaml")
+        region = () if kind.whole_cloud else ("--roi", folder / "roi.yaml")
         return (*(("--cloud", folder / coarse.CLOUD) if kind.loose else image), *region)
 
     def change_all(self, scenes):
@@ -161,11 +166,7 @@ class Plan:
     def changed(self):
         """Lists of copies by kind."""
         return {
-            name: [
-                ChangedScene(scene, name)
-                for scene in self.plain()
-                if scene.preset in kind.presets and scene.count in kind.fills
-            ]
+            name: [ChangedScene(scene, name) for scene in self.plain() if kind.is_of(scene)]
             for name, kind in KINDS.items()
         }
 

@@ -156,7 +156,7 @@ void addReliabilities(bool whole_cloud, std::vector<DetectedPose>& poses)
   {
     const Reliability reliability = assessReliability(pose, whole_cloud);
     pose.reliability = reliability.probability;
-    pose.weakest = reliability.weakest;
+    pose.main_doubt = reliability.main_doubt;
   }
 }
 

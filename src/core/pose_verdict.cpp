@@ -32,7 +32,7 @@ std::string usualShare(double usual)
 /// What pulled the reliability down.
 std::string weaknessOf(const DetectedPose& pose)
 {
-  switch (pose.weakest)
+  switch (pose.main_doubt)
   {
     case UnreliableReason::kRunnerUp:
       return rivalOf(pose);
@@ -105,8 +105,8 @@ PoseVerdict verdictOf(const DetectedPose& pose, bool rivals_known, const Cluster
                 std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
                 std::to_string(config.min_confirmed_px) + ")"};
   if (!config.mismatch_test || pose.reliability >= config.min_reliability) return {};
-  return {pose.weakest, "right with a probability of " + percent(pose.reliability) +
-                            " only (min_reliability " + percent(config.min_reliability) +
-                            "): " + weaknessOf(pose)};
+  return {pose.main_doubt, "right with a probability of " + percent(pose.reliability) +
+                               " only (min_reliability " + percent(config.min_reliability) +
+                               "): " + weaknessOf(pose)};
 }
 }  // namespace ppf_bin_picking

@@ -78,7 +78,7 @@ Reliability assessReliability(const DetectedPose& pose, bool whole_cloud)
     const double against = weight.per_unit * (term.value - weight.of_right_ones);
     if (against >= worst) continue;
     worst = against;
-    reliability.weakest = term.reason;
+    reliability.main_doubt = term.reason;
   }
   reliability.probability = 1 / (1 + std::exp(-sum));
   return reliability;

@@ -248,7 +248,7 @@ TEST_F(DetectorTest, judgesAPoseByWhetherThereIsARegion)
     for (const DetectedPose& pose : result.poses)
     {
       EXPECT_EQ(pose.reliability, assessReliability(pose, whole_cloud).probability);
-      EXPECT_EQ(pose.weakest, assessReliability(pose, whole_cloud).weakest);
+      EXPECT_EQ(pose.main_doubt, assessReliability(pose, whole_cloud).main_doubt);
       EXPECT_NE(pose.reliability, assessReliability(pose, !whole_cloud).probability);
     }
   }

@@ -72,7 +72,7 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
        {
          pose.reliability = 0.2;
          pose.claimed = 0.5;
-         pose.weakest = UnreliableReason::kOverlap;
+         pose.main_doubt = UnreliableReason::kOverlap;
        },
        UnreliableReason::kOverlap, "min_reliability"}};
   for (const Case& one : cases)

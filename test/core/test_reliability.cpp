@@ -44,11 +44,11 @@ protected:
     return probability(pose);
   }
 
-  static UnreliableReason weakest(const std::function<void(DetectedPose&)>& change)
+  static UnreliableReason main_doubt(const std::function<void(DetectedPose&)>& change)
   {
     DetectedPose pose = ordinaryPose();
     change(pose);
-    return assessReliability(pose, GetParam()).weakest;
+    return assessReliability(pose, GetParam()).main_doubt;
   }
 };
 
@@ -100,13 +100,13 @@ TEST_P(ReliabilityTest, staysFiniteForExtremeValues)
 
 TEST_P(ReliabilityTest, namesWhatPulledItDown)
 {
-  EXPECT_EQ(weakest([](DetectedPose& pose) { pose.margin = 0; }), UnreliableReason::kRunnerUp);
-  EXPECT_EQ(weakest([](DetectedPose& pose) { pose.hold = 0.002; }), UnreliableReason::kSlippage);
-  // within a region the other terms say all that the spread does
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.margin = 0; }), UnreliableReason::kRunnerUp);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.hold = 0.002; }), UnreliableReason::kSlippage);
+  // within a region the fit gives the spread next to no weight: the other terms say what it does
   if (GetParam())
-    EXPECT_EQ(weakest([](DetectedPose& pose) { pose.spread = 1.5; }), UnreliableReason::kSpread);
-  EXPECT_EQ(weakest([](DetectedPose& pose) { pose.claimed = 0.3; }), UnreliableReason::kOverlap);
-  EXPECT_EQ(weakest([](DetectedPose& pose) { pose.looked_through = 0.3; }),
+    EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.spread = 1.5; }), UnreliableReason::kSpread);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.claimed = 0.3; }), UnreliableReason::kOverlap);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.looked_through = 0.3; }),
             UnreliableReason::kLowScore);
 }
 

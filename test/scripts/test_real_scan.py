@@ -1,9 +1,12 @@
 """Variants of the real scans: turned and noisy images, turned and thinned clouds."""
 
+import itertools
+import json
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import yaml
@@ -11,9 +14,11 @@ import yaml
 PACKAGE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PACKAGE / "scripts"))
 
-from benchmark_lib.clouds import read_cloud, write_cloud  # after the path that it is found on
+from ablation_lib.copies import NOISE_M  # after the path that it is found on
+from benchmark_lib.clouds import read_cloud, write_cloud
 from benchmark_lib.programs import BenchmarkError
-from real_scan_lib import report, scans
+from real_scan_lib import measurement, report, scans
+from support import write_part
 
 
 def points_of(scan):
@@ -64,9 +69,7 @@ class ImageScanTest(unittest.TestCase):
         np.testing.assert_array_equal(noisy.levels == 0, self.scan.levels == 0)
         change = (noisy.levels.astype(float) - self.scan.levels)[self.scan.levels > 0] * 0.0001
         # rounding to levels adds its own
-        self.assertAlmostEqual(
-            change.std(), np.hypot(scans.NOISE_M, 0.0001 / 12**0.5), delta=1e-6
-        )
+        self.assertAlmostEqual(change.std(), np.hypot(NOISE_M, 0.0001 / 12**0.5), delta=1e-6)
         self.assertTrue((self.scan.noisy(2).levels != noisy.levels).any())
 
     def test_is_written_as_it_is(self):
@@ -130,17 +133,119 @@ class CloudFileTest(unittest.TestCase):
 
     def test_further_fields_are_left_out(self):
         rows = np.arange(10, dtype="<f4").reshape(2, 5)
-        head = (
-            "VERSION .7\nFIELDS x y z normal_x rgb\nSIZE 4 4 4 4 4\nTYPE F F F F F\nDATA binary\n"
-        )
+        head = "VERSION .7\nFIELDS x y z normal_x rgb\nSIZE 4 4 4 4 4\nTYPE F F F F F\n"
+        head += "POINTS 2\nDATA binary\n"
         self.path.write_bytes(head.encode() + rows.tobytes())
         np.testing.assert_array_equal(read_cloud(self.path), rows[:, :3])
 
     def test_another_file_is_refused_by_name(self):
         for content in (b"", b"VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nDATA binary\n"):
             self.path.write_bytes(content)
-            with self.assertRaisesRegex(BenchmarkError, "cloud.pcd"):
-                read_cloud(self.path)
+            self.refuses()
+
+    def test_a_file_that_is_cut_off_or_not_binary_is_refused(self):
+        write_cloud(np.ones((5, 3)), self.path)
+        whole = self.path.read_bytes()
+        for content in (
+            whole[:-4],
+            whole + b"1234",
+            whole.replace(b"DATA binary", b"DATA ascii"),
+            whole.replace(b"DATA binary", b"DATA binary_compressed"),
+        ):
+            self.path.write_bytes(content)
+            self.refuses()
+
+    def refuses(self):
+        with self.assertRaisesRegex(BenchmarkError, "cloud.pcd"):
+            read_cloud(self.path)
+
+
+class MeasurementTest(unittest.TestCase):
+    """A bench whose detector finds as many reliable poses as the scene's name has letters o, and as many unreliable ones."""
+
+    SHIFT = np.array([0.01, 0.02, 0.5])
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        data = Path(folder.name) / "data"
+        data.mkdir()
+        write_part(data, [[0, 0, 0], [20, 0, 0], [0, -10, 4]])
+        (data / "part.yaml").write_text("unit: mm\nmesh: model.stl\n")
+        self.bench = measurement.RealScan(Path(folder.name) / "bench", data)
+        self.bench.detect = self.detect
+        suspicious = mock.patch.object(measurement, "suspicious_poses", lambda *_: 7)
+        suspicious.start()
+        self.addCleanup(suspicious.stop)
+
+    def detect(self, variant, scene):
+        pose = np.eye(4)
+        pose[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+        pose[:3, 3] = self.SHIFT
+        poses = [
+            {"pose": pose.ravel().tolist(), "reliable": reliable}
+            for reliable in scene.name.count("o") * [True, False]
+        ]
+        path = self.bench.result_path(variant, scene)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps({"poses": poses}))
+        return True
+
+    def scene(self, name, loose=True, whole_cloud=True):
+        return measurement.RealScene(name, loose, whole_cloud)
+
+    def test_centers_are_those_of_the_mesh_at_reliable_poses(self):
+        scene = self.scene("soon")
+        self.bench.detect("default", scene)
+        middle = np.array([0.01, -0.005, 0.002])
+        turned = np.array([-middle[1], middle[0], middle[2]])
+        np.testing.assert_allclose(self.bench.centers(scene), 2 * [turned + self.SHIFT])
+        self.bench.detect("default", self.scene("empty"))
+        self.assertEqual(self.bench.centers(self.scene("empty")).shape, (0, 3))
+
+    def test_the_arguments_name_cloud_or_image_and_the_region_unless_all_is_searched(self):
+        for loose, whole_cloud in itertools.product((False, True), repeat=2):
+            scene = self.scene("a", loose, whole_cloud)
+            words = [str(word) for word in self.bench.scene_arguments(scene)]
+            self.assertEqual(words[0], "--cloud" if loose else "--depth")
+            self.assertEqual("--roi" in words, not whole_cloud)
+
+    def test_images_count_the_parts_bin_and_the_others(self):
+        levels = np.full((4, 5), 5000, np.uint16)
+        box = (np.zeros(3), np.ones(3))
+        regions = {name: box for name in ("pins", "motors", "shoos")}
+        scan = scans.ImageScan(levels, {"depth_unit_m": 0.0001}, regions)
+        rows, first = measurement.in_images(self.bench, {"one": scan, "two": scan})
+        self.assertEqual(rows, [["one", 0, 7, 4], ["two", 0, 7, 4]])
+        self.assertEqual(first.name, "image-0-pins")
+
+    def test_clouds_are_searched_in_the_bin_and_everywhere(self):
+        scan = scans.CloudScan(np.ones((3, 3)), np.eye(3))
+        rows, (in_bin, everywhere) = measurement.in_clouds(self.bench, {"one": scan})
+        self.assertEqual(rows, [["one", 1, 7, 1, 7, 1]])  # "cloud" has one o; no pose is in the bin
+        self.assertFalse(in_bin.whole_cloud)
+        self.assertTrue(everywhere.whole_cloud)
+
+
+class DrawsTest(unittest.TestCase):
+    def test_the_first_is_the_scan_as_it_is_and_no_two_are_alike(self):
+        with tempfile.TemporaryDirectory() as folder:
+            data = Path(folder)
+            levels = np.random.default_rng(3).integers(1, 9000, (8, 9)).astype(np.uint16)
+            scans.Image.fromarray(levels).save(data / "depth.png")
+            (data / "bins.yaml").write_text("regions: {pins: {min: [0, 0, 0], max: [1, 1, 1]}}\n")
+            (data / "camera.yaml").write_text(
+                "{width: 9, height: 8, fx: 9.0, fy: 9.0, cx: 4.0, cy: 3.0, depth_unit_m: 0.0001}\n"
+            )
+            points = np.random.default_rng(4).uniform(1, 500, (3000, 3))
+            write_cloud(points, data / "one_bin.pcd")
+            images, clouds = scans.image_draws(data), scans.cloud_draws(data)
+        first = next(iter(images.values()))
+        np.testing.assert_array_equal(first.levels, levels)
+        self.assertEqual(len({scan.levels.tobytes() for scan in images.values()}), len(images))
+        first = next(iter(clouds.values()))
+        np.testing.assert_allclose(first.points, points / 1000, rtol=1e-6)
+        self.assertEqual(len({scan.points.tobytes() for scan in clouds.values()}), len(clouds))
 
 
 class ReportTest(unittest.TestCase):

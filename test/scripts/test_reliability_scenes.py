@@ -12,8 +12,9 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 
 from benchmark_lib.cases import Scene  # after the path that it is found on
 from benchmark_lib.clouds import read_cloud
-from growth_lib.scenes import FACET
 from reliability_lib import coarse, training
+from reliability_lib.__main__ import QUICK_PARTS, QUICK_PLAN
+from support import write_part
 
 
 class PlanTest(unittest.TestCase):
@@ -29,15 +30,15 @@ class PlanTest(unittest.TestCase):
             self.assertEqual(len(set(others)), len(others))
 
     def test_makes_the_scenes_that_foreign_parts_are_looked_for_in(self):
-        quick = training.Plan(("a", "b"), seeds=(1,), fills=(2,), presets=("industrial",))
-        for plan in (training.Plan(tuple("abcdefghijkl")), quick):
+        quick = training.Plan(QUICK_PARTS, **QUICK_PLAN)
+        other = training.Plan(("a", "b"), seeds=(1,), fills=(2,), presets=("industrial",))
+        for plan in (training.Plan(tuple("abcdefghijkl")), quick, other):
             made = set(plan.plain()) | set(plan.changed()["shiny"])
             foreign = [pair for pairs in plan.foreign().values() for pair in pairs]
             self.assertTrue(foreign)
             for part, scene in foreign:
                 self.assertNotEqual(part, scene.part)
-                if plan is not quick:  # whose fill no copies are made of
-                    self.assertIn(scene, made)
+                self.assertIn(scene, made)
 
     def test_copies_are_made_of_some_sensors_and_fills(self):
         self.assertEqual(len(self.PLAN.plain()), 18)
@@ -56,12 +57,15 @@ class PlanTest(unittest.TestCase):
         for weights in training.FITS.values():
             self.assertIn(1.0, weights.values())
 
-    def test_only_fits_of_the_whole_cloud_hold_open_scenes_with_full_weight(self):
+    def test_only_the_fit_for_the_whole_cloud_has_poses_found_there_and_it_has_them_with_full_weight(
+        self,
+    ):
         for name, weights in training.FITS.items():
-            for pose_set in (kind for kind, weight in weights.items() if weight == 1):
+            for pose_set, weight in weights.items():
                 kind = training.KINDS.get(pose_set)
-                is_open = kind is not None and kind.open
-                self.assertEqual(is_open, name == "in the whole cloud", pose_set)
+                found_there = kind is not None and kind.whole_cloud
+                expected = name == "whole_cloud" and weight == 1
+                self.assertEqual(found_there, expected, (name, pose_set))
 
 
 class SceneArgumentsTest(unittest.TestCase):
@@ -103,12 +107,12 @@ class LabelsTest(unittest.TestCase):
         sets = np.array(["own", "open", "shiny", "foreign", "own"])
         terms = np.arange(10.0).reshape(5, 2)
         poses = training.Poses(terms, np.array([1, 0, 1, 0, 0]), sets, sets, sets, sets)
-        chosen, weights = poses.of_fit("within a region of interest")
+        chosen, weights = poses.of_fit("region")
         self.assertEqual(list(chosen.sets), ["own", "shiny", "foreign", "own"])
         np.testing.assert_array_equal(weights, [1, 1, 0.2, 1])
         np.testing.assert_array_equal(chosen.terms, terms[[0, 2, 3, 4]])
         np.testing.assert_array_equal(chosen.labels, [1, 1, 0, 0])
-        chosen, weights = poses.of_fit("in the whole cloud")
+        chosen, weights = poses.of_fit("whole_cloud")
         self.assertEqual(list(chosen.sets), ["open", "shiny", "foreign"])
         np.testing.assert_array_equal(weights, [1, 0.2, 0.2])
 
@@ -136,9 +140,23 @@ class CoarseTest(unittest.TestCase):
             u, v = columns.round().astype(int), rows.round().astype(int)
             np.testing.assert_array_equal(self.depth[v, u], points[:, 2])
             (step,) = set(np.diff(np.unique(u)))
+            self.assertEqual({step}, set(np.diff(np.unique(v))))
             part_px = 0.1 * 600 / np.median(self.depth[self.depth > 0])
             self.assertGreaterEqual(part_px / step, coarse.PIXELS[0])
-            self.assertLess(part_px / (step + 1), coarse.PIXELS[1])
+            self.assertLessEqual(part_px / step, coarse.PIXELS[1])
+
+    def test_the_step_leaves_the_wanted_pixels_wherever_a_whole_number_does(self):
+        rng = np.random.default_rng(8)
+        for part_px in np.exp(rng.uniform(np.log(5), np.log(900), 500)):
+            left = part_px / coarse.step_of(part_px, rng)
+            possible = part_px / np.arange(1, 100)
+            inside = (possible >= coarse.PIXELS[0]) & (possible <= coarse.PIXELS[1])
+            if inside.any():
+                self.assertTrue(coarse.PIXELS[0] <= left <= coarse.PIXELS[1], part_px)
+            elif part_px < coarse.PIXELS[0]:
+                self.assertEqual(left, part_px)
+        steps = {coarse.step_of(300, rng) for _ in range(200)}
+        self.assertEqual(steps, set(range(5, 12)))
 
     def test_a_part_of_few_pixels_keeps_them_all(self):
         self.assertEqual(len(self.points(1, part_m=0.01)), (self.depth > 0).sum())
@@ -157,13 +175,14 @@ class CoarseTest(unittest.TestCase):
             (source / "camera.yaml").write_text("".join(lines))
             (source / "gt.json").write_text("{}")
             (source / "roi.yaml").write_text("x: 1\n")
-            facets = np.zeros(1, FACET)
-            facets["corners"] = [[[0, 0, 0], [100, 0, 0], [0, 50, 0]]]
-            (source.parent / "model.stl").write_bytes(bytes(84) + facets.tobytes())
+            write_part(source.parent, [[0, 0, 0], [100, 0, 0], [0, 50, 0]])
             coarse.write_coarse_scene(source, copy)
             coarse.write_coarse_scene(source, copy)  # over what is there
             self.assertEqual((copy / "roi.yaml").read_text(), "x: 1\n")
             points = read_cloud(copy / coarse.CLOUD)
+            other = Path(folder) / "part/open-coarse"
+            coarse.write_coarse_scene(source, other)
+            np.testing.assert_array_equal(read_cloud(other / coarse.CLOUD), points)
         self.assertGreater(len(points), 50)
         seen = {tuple(point) for point in self.points_of_all_pixels()}
         self.assertTrue({tuple(point) for point in points.astype("<f4")} <= seen)

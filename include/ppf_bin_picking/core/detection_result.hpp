@@ -104,7 +104,8 @@ struct DetectedPose
   double goes_on = 0;        ///< ... beyond which a surface goes on that is no held pose's. [0, 1]
   double claimed = 0;        ///< Of the surface it expects, the share better poses explain. [0, 1]
   double reliability = 0;    ///< Probability that it is right; see reliability.hpp. [0, 1]
-  UnreliableReason weakest = UnreliableReason::kLowScore;  ///< What lowers the reliability most.
+  /// What lowers the reliability most, of a pose that stands in the result.
+  UnreliableReason main_doubt = UnreliableReason::kLowScore;
   /// Of x y z rx ry rz [m, rad]: shifts of the mesh's origin and turns about it, along the cloud
   /// frame's axes; -1 in its first entry while unknown. See pose_covariance.hpp.
   Matrix6d covariance = unknownCovariance();

@@ -25,9 +25,9 @@ public:
 
   /// Finds one part.
   /// @param cloud_camera  Camera's optical frame, z forward, camera at the origin [m]; non-finite
-  /// points are
-  ///                      skipped.
-  /// @param roi           Where to look; without it everywhere.
+  ///                      points are skipped.
+  /// @param roi           Where to look, without walls, rim and table. Without it everywhere, and
+  ///                      poses are less reliable: see assessReliability().
   /// @param stop          Set to true by another thread, ends the search as a time limit does.
   /// @return Poses, best first. Finding none is a normal outcome, see its status.
   /// @throw std::invalid_argument if the model was trained with other parameters, or is larger than

@@ -12,7 +12,7 @@ struct Reliability
 {
   double probability = 0;  ///< That the pose is right. [0, 1]
   /// The reason of the term that lowers it most, compared with the average right pose.
-  UnreliableReason weakest = UnreliableReason::kLowScore;
+  UnreliableReason main_doubt = UnreliableReason::kLowScore;
 };
 
 /// Logistic regression (Cox 1958) over what verification and the ambiguity tests found: score,
@@ -24,7 +24,7 @@ struct Reliability
 /// the whole cloud have weights of their own: rims, walls and tables, which nothing keeps from
 /// being taken for parts there, look right in other terms than parts do. Scores and shares are in
 /// [0, 1].
-/// @param pose         All fields but reliability, weakest, reliable and reason are read.
+/// @param pose         All fields but reliability, main_doubt, reliable and reason are read.
 /// @param whole_cloud  Whether the pose was found without a region of interest.
 Reliability assessReliability(const DetectedPose& pose, bool whole_cloud);
 
