@@ -2,9 +2,10 @@
 
 import statistics
 
+from ablation_lib.copies import NOISE_M
 from benchmark_lib.report import number, table
 
-from .scans import INSIDE, LEFT_OUT, NOISE_M, numbers
+from .scans import INSIDE, LEFT_OUT
 
 IMAGE_PICTURE = "images/real_scan_image.png"
 CLOUD_PICTURE = "images/real_scan_cloud.png"
@@ -19,7 +20,7 @@ def with_mean(rows):
 
 def write_page(facts, image_rows, cloud_rows):
     """The whole page."""
-    low, high = INSIDE
+    low, high = (", ".join(f"{value:g}" for value in corner) for corner in INSIDE)
     image_heading = ["variant", "pins", "suspicious", "in the other bins"]
     cloud_heading = ["variant", "in the bin", "suspicious", "whole cloud", "suspicious", "outside"]
     return f"""# Pins in a real scan
@@ -42,7 +43,7 @@ As it is:
 
 ## Loose cloud
 
-In the bin: the region of interest is `{{min: {numbers(low)}, max: {numbers(high)}}}`, the bin's inside from just above its floor to well under its rim. Whole
+In the bin: the region of interest is `{{min: [{low}], max: [{high}]}}`, the bin's inside from just above its floor to well under its rim. Whole
 cloud: without a region; *outside* are the poses whose middle does not lie in that box, on the rim or a wall.
 
 {table(cloud_heading, with_mean(cloud_rows))}

@@ -26,8 +26,8 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kInterceptInRegion = -0.616;
-constexpr double kInterceptInWholeCloud = -3.337;
+constexpr double kInterceptInRegion = -0.200;
+constexpr double kInterceptInWholeCloud = -2.227;
 
 // As in scripts/reliability_lib/usual.py: what is usual is fitted together with the weights.
 constexpr std::size_t kZeros = 5;  // beside the poses that show what is usual
@@ -37,31 +37,31 @@ std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), UnreliableReason::kLowScore, {0.104, 2.594}, {0.838, 2.849}},
+      {std::log(score / (1 - score)), UnreliableReason::kLowScore, {0.138, 2.585}, {0.755, 2.832}},
       {std::clamp(pose.margin, -0.2, 0.5),
        UnreliableReason::kRunnerUp,
-       {6.074, 0.456},
-       {6.328, 0.459}},
+       {5.759, 0.456},
+       {6.337, 0.459}},
       {std::log10(std::max(pose.hold, 0.001)),
        UnreliableReason::kSlippage,
-       {2.528, -1.095},
-       {2.330, -1.075}},
-      {pose.slide_share, UnreliableReason::kSlippage, {-0.665, 0.139}, {-2.157, 0.074}},
-      {std::min(pose.spread, 2.0), UnreliableReason::kSpread, {-0.019, 0.186}, {-2.564, 0.191}},
+       {2.532, -1.096},
+       {2.458, -1.076}},
+      {pose.slide_share, UnreliableReason::kSlippage, {-0.694, 0.140}, {-2.045, 0.077}},
+      {std::min(pose.spread, 2.0), UnreliableReason::kSpread, {-0.060, 0.186}, {-2.752, 0.192}},
       {std::max(pose.looked_through - pose.usual_looked_through, 0.0),
        UnreliableReason::kLowScore,
-       {-27.122, 0.006},
-       {-14.949, 0.004}},
-      {pose.goes_on, UnreliableReason::kSlippage, {-5.363, 0.035}, {-5.250, 0.018}},
-      {pose.claimed, UnreliableReason::kOverlap, {-13.346, 0.001}, {-11.859, 0.001}},
+       {-25.853, 0.006},
+       {-15.509, 0.004}},
+      {pose.goes_on, UnreliableReason::kSlippage, {-5.004, 0.035}, {-5.890, 0.019}},
+      {pose.claimed, UnreliableReason::kOverlap, {-14.843, 0.001}, {-12.372, 0.001}},
       {std::log10(std::max(pose.confirmed_px, 30)),
        UnreliableReason::kLowScore,
-       {1.424, 3.165},
-       {1.637, 3.011}},
+       {1.330, 3.143},
+       {1.304, 2.971}},
       {std::min(pose.visible_fraction, 1.0),
        UnreliableReason::kLowScore,
-       {1.209, 0.796},
-       {1.324, 0.805}},
+       {1.088, 0.798},
+       {1.709, 0.809}},
   }};
 }
 }  // namespace

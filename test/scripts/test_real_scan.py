@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 
 PACKAGE = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PACKAGE / "scripts"))
+sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
 
 from ablation_lib.copies import NOISE_M  # after the path that it is found on
 from benchmark_lib.clouds import read_cloud, write_cloud

@@ -162,6 +162,15 @@ class UsualTest(unittest.TestCase):
         for term in terms.TERMS:
             self.assertIn(f"{{{term.code}, ", " ".join(source.split()))
 
+    def test_the_detector_has_the_weights_of_the_page(self):
+        source = "".join((PACKAGE / "src/core/reliability.cpp").read_text().split())
+        page = (PACKAGE / "docs/reliability.md").read_text()
+        (code,) = re.findall(r"```cpp\n(.*?)```", page, re.DOTALL)
+        lines = [line for line in code.splitlines() if line]
+        self.assertEqual(len(lines), 2 + len(terms.TERMS))
+        for line in lines:
+            self.assertIn("".join(line.split()), source)
+
     def test_the_detector_has_no_other_gates(self):
         verdict = (PACKAGE / "src/core/pose_verdict.cpp").read_text()
         gates = set(re.findall(r"config\.(\w+)", verdict))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 PACKAGE = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PACKAGE / "scripts"))
+sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
 
 from benchmark_lib.cases import Scene  # after the path that it is found on
 from benchmark_lib.clouds import read_cloud
