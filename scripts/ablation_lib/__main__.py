@@ -84,7 +84,7 @@ class Ablation:
         """Figures of a row."""
         own = self.own_figures(row.name)
         bins = [self.bin_figures(row.name, seed) for seed in self.bin_scenes]
-        self.real.detect_all(row.name, self.real_scenes)
+        self.real.detect_side_by_side(row.name, self.real_scenes)
         found = [reliable_poses(self.real, row.name, scene) for scene in self.real_scenes]
         return {
             "bins": bins,
@@ -96,11 +96,11 @@ class Ablation:
 
     def bin_figures(self, variant, seed):
         scenes = self.bin_scenes[seed]
-        self.bins.detect_all(variant, scenes)
+        self.bins.detect_side_by_side(variant, scenes)
         return self.bins.evaluate(f"seed-{seed}", variant, scenes)["summary"]
 
     def own_figures(self, variant):
-        self.own.detect_all(variant, self.own_scenes)
+        self.own.detect_side_by_side(variant, self.own_scenes)
         return self.own.evaluate("ablation", variant, self.own_scenes)["summary"]
 
     def relative_times(self, rows):

@@ -86,7 +86,7 @@ def measure(bench, groups):
     for group, scenes in groups.items():
         bench.simulate_all(scenes)
         for variant in VARIANTS:
-            bench.detect_all(variant, scenes)
+            bench.detect_side_by_side(variant, scenes)
             judged = bench.evaluate(group, variant, scenes)
             found = judged_poses(bench, variant, judged, scenes)
             ranked = {number: ranking(found, number) for number in NUMBERS}

@@ -127,13 +127,6 @@ class Training(Bench):
             made = once(path, self.scene_key(scene), lambda: write(source, path))
             progress.step(f"{scene.part} {scene.name}", made)
 
-    def find_foreign(self, pairs):
-        """Looks for parts in scenes of other parts. pairs: part, scene."""
-        progress = Progress("foreign objects", len(pairs))
-        for part, scene in pairs:
-            made = self.detect(VARIANT, scene, part)
-            progress.step(f"{part} among {scene.part} {scene.name}", made)
-
     def found(self, scene, part=None):
         """Poses of a result as they were written, and their terms."""
         path = self.result_path(VARIANT, scene, part)
@@ -252,8 +245,9 @@ def collect(plan, bench):
     own, foreign = {"own": plan.plain(), **plan.changed()}, plan.foreign()
     bench.simulate_all(own["own"])
     bench.change_all([scene for kind in KINDS for scene in own[kind]])
-    bench.detect_all(VARIANT, [scene for scenes in own.values() for scene in scenes])
-    bench.find_foreign([pair for pairs in foreign.values() for pair in pairs])
+    bench.detect_side_by_side(VARIANT, [scene for scenes in own.values() for scene in scenes])
+    pairs = [pair for pairs in foreign.values() for pair in pairs]
+    bench.detect_side_by_side(VARIANT, [scene for _, scene in pairs], [part for part, _ in pairs])
     found = {
         **{name: list(own_poses(bench, name, scenes)) for name, scenes in own.items()},
         **{name: list(foreign_poses(bench, pairs)) for name, pairs in foreign.items()},
