@@ -150,6 +150,18 @@ STEPS = (
         ),
     ),
     without(
+        "outline-holds-nothing",
+        "surfaces alone count in `hold`, no edges",
+        "",
+        ("pose_information.cpp", "matrix = surface + outline;", "matrix = surface;"),
+    ),
+    without(
+        "weights-of-the-whole-cloud",
+        "the reliability has the weights of searches without a region",
+        "",
+        ("range_image.cpp", "whole_cloud = !roi;", "whole_cloud = true;"),
+    ),
+    without(
         "nothing-usual",
         "what the trusted poses of a scene have in common is held against each of them",
         "",
