@@ -1,17 +1,21 @@
 """Command line of scripts/ablation."""
 
 import argparse
+import concurrent.futures
 import json
 import os
 import statistics
 import sys
+from functools import partial
 from pathlib import Path
 
 from benchmark_lib import cases
 from benchmark_lib.detection import Bench
 from benchmark_lib.programs import Progress, provenance, run_script
+from real_scan_lib.measurement import RealScan, write_images
+from real_scan_lib.scans import image_draws
 
-from .copies import CopiedBench, copy_bins, copy_real, reliable_poses, suspicious_poses
+from .copies import REAL_PART, CopiedBench, copy_bins, reliable_poses, suspicious_poses
 from .edited_core import EditedCore
 from .report import write_page
 from .rows import ROWS
@@ -65,14 +69,14 @@ class Ablation:
         folder = options.folder.resolve()
         configs = write_configs(folder / "configs", rows)
         self.bins = CopiedBench(folder / "bins", configs)
-        self.real = CopiedBench(folder / "real", configs)
+        self.real = RealScan(folder / "real", options.data / "real/pins", configs)
         self.own = Bench(folder / "own", configs)
         core = EditedCore(folder / "core")
         cores = {row.name: core.library(row) for row in rows if row.edits}
         for bench in (self.bins, self.real, self.own):
             bench.cores = cores
         self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
-        self.real_scenes = copy_real(options.data / "real/pins", self.real)
+        self.images = write_images(self.real, image_draws(options.data / "real/pins"))
         self.own_scenes = [
             cases.Scene(part, FILL, preset, OWN_SEED)
             for part in cases.all_parts()
@@ -84,14 +88,21 @@ class Ablation:
         """Figures of a row."""
         own = self.own_figures(row.name)
         bins = [self.bin_figures(row.name, seed) for seed in self.bin_scenes]
-        self.real.detect_side_by_side(row.name, self.real_scenes)
-        found = [reliable_poses(self.real, row.name, scene) for scene in self.real_scenes]
+        return {"bins": bins, "own": own, **self.real_figures(row.name)}
+
+    def real_figures(self, variant):
+        """Of the real scan: reliable poses in the part's bin, as it is and of each of its variants, suspicious ones of each,
+        and reliable poses in the other bins, as they are."""
+        pins = [scenes[REAL_PART] for scenes in self.images.values()]
+        as_it_is = next(iter(self.images.values()))
+        others = [scene for region, scene in as_it_is.items() if region != REAL_PART]
+        self.real.detect_side_by_side(variant, pins + others)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            suspicious = list(pool.map(partial(suspicious_poses, self.real, variant), pins))
         return {
-            "bins": bins,
-            "own": own,
-            "pins": found[0],
-            "suspicious": suspicious_poses(self.real, row.name, self.real_scenes[0]),
-            "others": sum(found[1:]),
+            "pins": [reliable_poses(self.real, variant, scene) for scene in pins],
+            "suspicious": suspicious,
+            "others": sum(reliable_poses(self.real, variant, scene) for scene in others),
         }
 
     def bin_figures(self, variant, seed):

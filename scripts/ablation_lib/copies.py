@@ -1,4 +1,4 @@
-"""Scenes of the data folder, copied so that a bench can work on them: bins with a little more noise, and a real scan."""
+"""Scenes of the data folder, copied with a little more noise so that a bench can work on them."""
 
 import json
 import shutil
@@ -12,7 +12,7 @@ from PIL import Image
 from benchmark_lib.detection import Bench
 from benchmark_lib.programs import BenchmarkError, digest, run
 
-from compare_lib.comparison import decimal, region_text
+from compare_lib.comparison import region_text
 
 NOISE_M = 0.00005  # standard deviation added to the depth, of the order of the sensor's own
 REAL_PART = "pins"  # also the bin that holds the part; the others hold none
@@ -83,24 +83,6 @@ def copy_bins(data, bench, seeds):
             add_noise(folder / "depth.png", unit_m, zlib.crc32(f"{part}/{scene.name}".encode()))
             (folder / "roi.yaml").write_text(region)
             scenes[seed].append(scene)
-    return scenes
-
-
-def copy_real(data, bench):
-    """The real scan with each of its regions. Returns the scenes; the first holds the part."""
-    bins = data / "bins.yaml"
-    if not bins.is_file():
-        raise BenchmarkError(f"{bins} is missing: name the data folder with --data.")
-    regions = yaml.safe_load(bins.read_text())["regions"]
-    part = yaml.safe_load((data / "part.yaml").read_text())
-    copy_files(data, bench.part_folder(REAL_PART), ("part.yaml", part["mesh"]))
-    scenes = []
-    for name in sorted(regions, key=lambda region: (region != REAL_PART, region)):
-        scene = CopiedScene(REAL_PART, name)
-        copy_files(data, bench.scene_path(scene), ("depth.png", "camera.yaml"))
-        lines = [f"{k}: [{', '.join(map(decimal, v))}]\n" for k, v in regions[name].items()]
-        (bench.scene_path(scene) / "roi.yaml").write_text("".join(lines))
-        scenes.append(scene)
     return scenes
 
 

@@ -32,8 +32,8 @@ def over_seeds(bins, part, key):
 
 def step_table(rows, figures):
     """One line a row."""
-    heading = ["setting or step", "AP", "P", "R", "own AP", "own P", "own R", "pins", "suspicious"]
-    heading += ["other bins", "time"]
+    heading = ["setting or step", "AP", "P", "R", "own AP", "own P", "own R", "pins", "mean pins"]
+    heading += ["suspicious", "other bins", "time"]
     lines = []
     for row in rows:
         figure = figures[row.name]
@@ -41,7 +41,8 @@ def step_table(rows, figures):
             [f"`{row.name}`"]
             + [number(over_seeds(figure["bins"], "ALL", key), 3) for key in KEYS]
             + [number(figure["own"]["ALL"][key], 3) for key in KEYS]
-            + [figure["pins"], figure["suspicious"], figure["others"]]
+            + [figure["pins"][0], number(statistics.mean(figure["pins"]), 1)]
+            + [number(statistics.mean(figure["suspicious"]), 1), figure["others"]]
             + [number(figure["time"], 2)]
         )
     return table(heading, lines)
@@ -93,8 +94,8 @@ which keeps what is done in `{facts['folder']}`. Commit {facts['commit']}; {fact
 - AP, P, R (precision and recall of the reliable poses): the scenes of `data/bins`, mean over {facts['seeds']} copies with Gaussian noise of
   {NOISE_M * 1000:g} mm added to their depth; the detector itself draws no random numbers. Judged by `evaluate_poses`.
 - own: simulated scenes of each of the package's parts, {facts['fill']} in the bin, three sensors, seed {facts['own_seed']}: not those of scripts/benchmark.
-- pins: reliable poses on the real scan's bin of pins (about 36 lie there), how many of them `check_poses` finds suspicious, and the reliable poses in
-  the three bins beside it, where no pin lies and every pose is wrong.
+- pins: reliable poses on the real scan's bin of pins (about 36 lie there); the mean over it and the turned and noisier variants of scripts/real_scan,
+  and of how many of these poses `check_poses` finds suspicious; the reliable poses in the three bins beside it, where no pin lies and every pose is wrong.
 - time: of a whole detection, over that of the first row; median over a scene of each part of the first two sets, which all rows see one after the other.
 """
 

@@ -5,9 +5,10 @@ import os
 import sys
 from pathlib import Path
 
-from benchmark_lib.programs import BenchmarkError, provenance, run_script
+from benchmark_lib.detection import write_configs
+from benchmark_lib.programs import provenance, run_script
 
-from .measurement import RealScan, in_clouds, in_images
+from .measurement import VARIANT, RealScan, in_clouds, in_images
 from .report import CLOUD_PICTURE, IMAGE_PICTURE, WHOLE_PICTURE, write_page
 from .scans import cloud_draws, image_draws
 
@@ -27,10 +28,10 @@ def arguments():
 def work(options):
     """Returns the exit status."""
     data = options.data / "real/pins"
-    if not (data / "bins.yaml").is_file():
-        raise BenchmarkError(f"{data / 'bins.yaml'} is missing: name the data folder with --data.")
     facts = {**provenance("scripts/real_scan"), "folder": options.folder}
-    bench = RealScan(options.folder.resolve(), data)
+    folder = options.folder.resolve()
+    configs = write_configs(folder / "configs", [VARIANT], [])
+    bench = RealScan(folder, data, configs)
     image_rows, image = in_images(bench, image_draws(data))
     cloud_rows, (inside, whole) = in_clouds(bench, cloud_draws(data))
     for scene, picture in ((image, IMAGE_PICTURE), (inside, CLOUD_PICTURE), (whole, WHOLE_PICTURE)):

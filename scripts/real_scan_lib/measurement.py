@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import yaml
 
-from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, suspicious_poses
-from benchmark_lib.detection import write_configs
+from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, reliable_poses, suspicious_poses
 from benchmark_lib.meshes import bounds_m
 from benchmark_lib.programs import Progress
 
@@ -29,8 +28,8 @@ class RealScene:
 class RealScan(CopiedBench):
     """A bench with the scans' variants."""
 
-    def __init__(self, folder, data):
-        super().__init__(folder, write_configs(folder / "configs", [VARIANT], []))
+    def __init__(self, folder, data, configs):
+        super().__init__(folder, configs)
         mesh = yaml.safe_load((data / "part.yaml").read_text())["mesh"]
         copy_files(data, self.part_folder(REAL_PART), ("part.yaml", mesh))
         self.center_m = sum(bounds_m(data / "part.yaml")) / 2
@@ -54,25 +53,33 @@ class RealScan(CopiedBench):
         suspicious_poses(self, VARIANT, scene, "--image", path)
 
 
+def write_images(bench, draws):
+    """Makes the scenes of depth images. Returns of each variant its scenes by the bin's name. draws: as image_draws()."""
+    scenes = {}
+    for k, (name, scan) in enumerate(draws.items()):
+        scenes[name] = {
+            region: RealScene(f"image-{k}-{region}", loose=False, whole_cloud=False)
+            for region in scan.regions
+        }
+        for region, scene in scenes[name].items():
+            scan.write(region, bench.scene_path(scene))
+    return scenes
+
+
 def in_images(bench, draws):
     """Rows: variant, reliable poses in the part's bin, suspicious ones of them, reliable poses in the other bins. And the
     first variant's scene with the part. draws: as image_draws()."""
-    rows, first = [], None
-    progress = Progress("depth images", len(draws))
-    for k, (name, scan) in enumerate(draws.items()):
-        found, suspicious, made = {}, 0, False
-        for region in scan.regions:
-            scene = RealScene(f"image-{k}-{region}", loose=False, whole_cloud=False)
-            scan.write(region, bench.scene_path(scene))
-            made |= bench.detect(VARIANT, scene)
-            found[region] = len(bench.centers(scene))
-            if region == REAL_PART:
-                suspicious = suspicious_poses(bench, VARIANT, scene)
-                first = first or scene
-        others = sum(count for region, count in found.items() if region != REAL_PART)
-        rows.append([name, found[REAL_PART], suspicious, others])
-        progress.step(name, made)
-    return rows, first
+    images = write_images(bench, draws)
+    rows = []
+    progress = Progress("depth images", len(images))
+    for name, scenes in images.items():
+        made = [bench.detect(VARIANT, scene) for scene in scenes.values()]
+        found = {region: reliable_poses(bench, VARIANT, scene) for region, scene in scenes.items()}
+        pins = found.pop(REAL_PART)
+        suspicious = suspicious_poses(bench, VARIANT, scenes[REAL_PART])
+        rows.append([name, pins, suspicious, sum(found.values())])
+        progress.step(name, any(made))
+    return rows, next(iter(images.values()))[REAL_PART]
 
 
 def in_clouds(bench, draws):
@@ -86,7 +93,8 @@ def in_clouds(bench, draws):
             scene = RealScene(f"cloud-{k}-{place}", loose=True, whole_cloud=place == "everywhere")
             scan.write(bench.scene_path(scene))
             made |= bench.detect(VARIANT, scene)
-            row += [len(bench.centers(scene)), suspicious_poses(bench, VARIANT, scene)]
+            row.append(reliable_poses(bench, VARIANT, scene))
+            row.append(suspicious_poses(bench, VARIANT, scene))
             scenes.append(scene)
         row.append(int((~scan.inside(bench.centers(scenes[1]))).sum()))
         rows.append(row)

@@ -8,6 +8,7 @@ from PIL import Image
 
 from ablation_lib.copies import NOISE_M, with_noise
 from benchmark_lib.clouds import read_cloud, write_cloud
+from benchmark_lib.programs import BenchmarkError
 from compare_lib.comparison import decimal
 
 LEFT_OUT = 0.03  # share of a loose cloud's points
@@ -107,6 +108,8 @@ def numbers(values):
 
 def image_draws(data):
     """Variants of the depth image by name; the first is as it is."""
+    if not (data / "bins.yaml").is_file():
+        raise BenchmarkError(f"{data / 'bins.yaml'} is missing: name the data folder with --data.")
     with Image.open(data / "depth.png") as image:
         levels = np.array(image)
     regions = yaml.safe_load((data / "bins.yaml").read_text())["regions"]

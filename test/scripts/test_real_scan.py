@@ -172,7 +172,7 @@ class MeasurementTest(unittest.TestCase):
         data.mkdir()
         write_part(data, [[0, 0, 0], [20, 0, 0], [0, -10, 4]])
         (data / "part.yaml").write_text("unit: mm\nmesh: model.stl\n")
-        self.bench = measurement.RealScan(Path(folder.name) / "bench", data)
+        self.bench = measurement.RealScan(Path(folder.name) / "bench", data, {})
         self.bench.detect = self.detect
         suspicious = mock.patch.object(measurement, "suspicious_poses", lambda *_: 7)
         suspicious.start()
