@@ -144,7 +144,10 @@ def write_page(facts, figures):
             difference_table(variants),
             "Part by part (P, R: precision and recall of the poses called reliable):\n\n"
             + part_table(variants),
-            "What `default` makes of its poses:\n\n" + reason_table(variants["default"].poses),
+            *[
+                f"What `{name}` makes of its poses:\n\n" + reason_table(variants[name].poses)
+                for name in ("default", "spread")
+            ],
             f"How far the hypotheses of the poses that `coverage` calls reliable spread, in diameters (max_spread_rel: {MAX_SPREAD}):\n\n"
             + spread_table(variants["coverage"].poses),
         ]
