@@ -36,9 +36,10 @@ class RealScan(CopiedBench):
 
     def scene_arguments(self, scene):
         folder = self.scene_path(scene)
+        cloud = ("--cloud", folder / "cloud.pcd", "--cloud-unit", "mm")
         image = ("--depth", folder / "depth.png", "--camera", folder / "camera.yaml")
         region = () if scene.whole_cloud else ("--roi", folder / "roi.yaml")
-        return (*(("--cloud", folder / "cloud.pcd") if scene.loose else image), *region)
+        return (*(cloud if scene.loose else image), *region)
 
     def centers(self, scene):
         """Of the part at each reliable pose; n x 3, in the cloud's frame [m]."""

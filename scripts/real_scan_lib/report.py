@@ -27,7 +27,7 @@ def write_page(facts, image_rows, cloud_rows):
 
 Reliable poses of a shiny pin in a depth image of four bins, of which one holds about 36 pins and the others none, and in a loose cloud of another bin
 with about 20, a point each millimetre on pins six thick. There is no truth: what is told is how many poses pass, how many of them `check_poses` finds suspicious, and
-how many lie where no pin can. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
+how many lie where no pin can. `check_poses` does not tell head from tail where a pin is a few points wide: look at the pictures. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
 its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order. Written by
 
     {facts["command"]}

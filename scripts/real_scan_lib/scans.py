@@ -86,9 +86,10 @@ class CloudScan:
         return ((back >= low) & (back <= high)).all(axis=1)
 
     def write(self, folder):
-        """A scene's folder, with the inside of the bin as region."""
+        """A scene's folder, with the inside of the bin as region. The cloud has the unit of the scan's file, so that what is not
+        changed has its very numbers."""
         folder.mkdir(parents=True, exist_ok=True)
-        write_cloud(self.points, folder / "cloud.pcd")
+        write_cloud(self.points / CLOUD_UNIT_M, folder / "cloud.pcd")
         low, high = INSIDE
         pose = np.eye(4)
         pose[:3, :3] = self.turn

@@ -226,6 +226,9 @@ parts look the same there, and the open scenes hold none.
 
 How well the probabilities hold is told for poses of a part left out of the fit: one fit a part, judged on the part that it does not know. *Kept* is
 the share of the right poses that have at least this probability, *precision* the share of right ones among the poses that have; the other gates are not asked.
+
+In short: from 0.98 on nearly all poses are right. Between 0.9 and 0.98, where the threshold lies, more are wrong than promised of flat-faced parts (box, profile, clip), which fit
+themselves turned, and of searches of the whole cloud.
 """
 
 

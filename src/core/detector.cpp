@@ -2,6 +2,7 @@
 
 #include "ppf_bin_picking/core/candidate_search.hpp"
 #include "ppf_bin_picking/core/candidate_verification.hpp"
+#include "ppf_bin_picking/core/detection_message.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 #include "ppf_bin_picking/core/pose_report.hpp"
 #include "ppf_bin_picking/core/range_image.hpp"
@@ -104,10 +105,10 @@ void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
     result.status = DetectionStatus::kNoPickablePose;
     if (result.poses.empty())
       text << "nothing like the part was found among " << result.roi_points
-           << " points: check the region of interest and the part's mesh and unit";
+           << " points: no part is there, or the region of interest, the part's mesh or its unit "
+           << "is not right";
     else
-      text << "no reliable pose among " << result.poses.size()
-           << " found: see the mismatching regions for the reasons";
+      text << noReliablePoseMessage(result);
   }
   result.message = text.str();
 }
@@ -177,9 +178,7 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
   if (prepared.roi_points == 0)
   {
     result.status = DetectionStatus::kRoiEmpty;
-    result.message =
-        "no measured point in the region of interest: the bin is empty, or the "
-        "region is misplaced";
+    result.message = emptyRegionMessage(cloud_camera, *roi);
     return;
   }
   result.message = imageProblem(prepared, models);

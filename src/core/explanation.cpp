@@ -108,6 +108,8 @@ void findOwner(const RangeImage& image, const PpfModel& model, const DetectorCon
 
 PoseFate fateOf(const PoseExplanation& explanation, const DetectorConfig& config)
 {
+  if (explanation.evidence.visible_px == 0 && explanation.evidence.occluded == 0)
+    return PoseFate::kOutOfSight;
   if (explanation.rank >= 0)
     return explanation.result.poses[static_cast<std::size_t>(explanation.rank)].reliable
                ? PoseFate::kReliable
@@ -140,7 +142,8 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   const double confirmed = explanation.evidence.confirmed_weight;
   explanation.score = poseScore(explanation.evidence, confirmed);
   explanation.balance = evidenceBalance(explanation.evidence, confirmed);
-  explanation.hold = gatherInformation(image, model, pose, config).hold(model, pose);
+  explanation.hold =
+      std::max(0.0F, gatherInformation(image, model, pose, config).hold(model, pose));
   explanation.quick_balance = fitSparsely(image, model, pose, config).balance;
   Refinement refinement{pose};
   refineByOneLook(image, model, config, refinement);

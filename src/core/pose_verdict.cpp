@@ -52,6 +52,23 @@ std::string weaknessOf(const DetectedPose& pose)
   }
 }
 
+/// The gates of the score that the pose fails. Empty: none.
+std::string smallEvidence(const DetectedPose& pose, const DetectorConfig& config)
+{
+  std::string failed;
+  const auto add = [&failed](const std::string& words)
+  { failed += (failed.empty() ? "" : ", ") + words; };
+  if (pose.score < config.min_score)
+    add("score " + percent(pose.score) + " (min_score " + percent(config.min_score) + ")");
+  if (pose.visible_fraction < config.min_visible_share)
+    add("not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
+        percent(config.min_visible_share) + ")");
+  if (pose.confirmed_px < config.min_confirmed_px)
+    add("confirmed by " + std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
+        std::to_string(config.min_confirmed_px) + ")");
+  return failed;
+}
+
 /// The gates of the mismatch test before those of the score.
 PoseVerdict ambiguityVerdict(const DetectedPose& pose, const ClusterShare& share,
                              const PpfModel& model, const DetectorConfig& config)
@@ -96,14 +113,8 @@ PoseVerdict verdictOf(const DetectedPose& pose, bool rivals_known, const Cluster
     PoseVerdict verdict = ambiguityVerdict(pose, share, model, config);
     if (verdict.reason != UnreliableReason::kNone) return verdict;
   }
-  if (pose.score < config.min_score || pose.visible_fraction < config.min_visible_share ||
-      pose.confirmed_px < config.min_confirmed_px)
-    return {UnreliableReason::kLowScore,
-            "score " + percent(pose.score) + " (min_score " + percent(config.min_score) +
-                "), not hidden " + percent(pose.visible_fraction) + " (min_visible_share " +
-                percent(config.min_visible_share) + "), confirmed by " +
-                std::to_string(pose.confirmed_px) + " pixels (min_confirmed_px " +
-                std::to_string(config.min_confirmed_px) + ")"};
+  const std::string small = smallEvidence(pose, config);
+  if (!small.empty()) return {UnreliableReason::kLowScore, small};
   if (!config.mismatch_test || pose.reliability >= config.min_reliability) return {};
   return {pose.main_doubt, "right with a probability of " + percent(pose.reliability) +
                                " only (min_reliability " + percent(config.min_reliability) +

@@ -18,7 +18,7 @@ void requireMeasurement(const PointCloud& cloud, const std::string& path)
   if (std::none_of(cloud.points.begin(), cloud.points.end(), measured))
     throw InputError(path + " holds no measured point in front of the camera (" +
                      std::to_string(cloud.size()) +
-                     " in all): check the camera, that z points forward, and that it is the file "
-                     "you mean");
+                     " in all): check the camera, that z points forward, the unit, and that it is "
+                     "the file you mean");
 }
 }  // namespace ppf_bin_picking

@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/ros/result_merging.hpp"
 
+#include "ppf_bin_picking/core/detection_message.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
 #include "ppf_bin_picking/core/pinhole_camera.hpp"
@@ -152,8 +153,7 @@ void setStatus(DetectionResult& all)
   if (reliable != "0")
     all.message = reliable + " reliable poses";
   else if (!all.poses.empty())
-    all.message = "no reliable pose among " + std::to_string(all.poses.size()) +
-                  " found: see the mismatching regions for the reasons";
+    all.message = noReliablePoseMessage(all);
 }
 }  // namespace
 

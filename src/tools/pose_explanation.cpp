@@ -76,6 +76,9 @@ std::string verdict(const PoseExplanation& explanation)
   {
     case PoseFate::kNotLookedFor:
       return "not looked for: " + result.message;
+    case PoseFate::kOutOfSight:
+      return "not looked for: the part would lie outside the image around the region; give the "
+             "pose in metres, in the cloud's frame";
     case PoseFate::kNoVotes:
       return "failed at voting: no hypothesis is near it";
     case PoseFate::kNoCandidate:

@@ -104,6 +104,10 @@ TEST_F(DetectorTest, explainsAWrongPoseByWhatStoppedIt)
   EXPECT_EQ(turned.owner, 0);
   EXPECT_GT(turned.owned_share, 0.5);
   EXPECT_LT(turned.score, 0.7);
+  const PoseExplanation beside =
+      detector.explain(cloud(), bracket_, roi_, poseOf(0.3, {1, 1, 0}, {20, 0, 400}));
+  EXPECT_EQ(beside.fate, PoseFate::kOutOfSight);
+  EXPECT_GE(beside.hold, 0);
   RegionOfInterest nowhere = roi_;
   nowhere.T_cloud_box.translation().x() += 1;
   const PoseExplanation outside = detector.explain(cloud(), bracket_, nowhere, T_camera_bracket_);

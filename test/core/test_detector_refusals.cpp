@@ -26,7 +26,12 @@ TEST_F(DetectorRefusals, saysThatTheRegionIsEmpty)
   EXPECT_EQ(result.status, DetectionStatus::kRoiEmpty);
   EXPECT_EQ(result.roi_points, 0U);
   EXPECT_TRUE(result.poses.empty());
-  EXPECT_FALSE(result.message.empty());
+  EXPECT_NE(result.message.find("the bin is empty"), std::string::npos) << result.message;
+  EXPECT_EQ(result.message.find("unit"), std::string::npos) << result.message;
+  roi_.T_cloud_box.translation() *= 10;
+  const DetectionResult far = detect(coarseConfig());
+  EXPECT_EQ(far.status, DetectionStatus::kRoiEmpty);
+  EXPECT_NE(far.message.find("unit"), std::string::npos) << far.message;
 }
 
 TEST_F(DetectorRefusals, refusesACloudWithoutMeasurements)

@@ -240,6 +240,11 @@ class DrawsTest(unittest.TestCase):
             points = np.random.default_rng(4).uniform(1, 500, (3000, 3))
             write_cloud(points, data / "one_bin.pcd")
             images, clouds = scans.image_draws(data), scans.cloud_draws(data)
+            first = next(iter(clouds.values()))
+            first.write(data / "copy")
+            self.assertEqual(
+                (data / "copy/cloud.pcd").read_bytes(), (data / "one_bin.pcd").read_bytes()
+            )
         first = next(iter(images.values()))
         np.testing.assert_array_equal(first.levels, levels)
         self.assertEqual(len({scan.levels.tobytes() for scan in images.values()}), len(images))

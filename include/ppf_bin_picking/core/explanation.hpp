@@ -20,6 +20,7 @@ namespace ppf_bin_picking
 enum class PoseFate
 {
   kNotLookedFor,  ///< No point in the region, or a cloud that cannot be worked on.
+  kOutOfSight,    ///< Nothing of the part lies in the image around the region.
   kNoVotes,       ///< Neither surfaces nor boundaries voted for anything near it.
   kNoCandidate,   ///< Votes, but others had more: no refined candidate is near it.
   kGivenUp,       ///< The same, and at this pose one would be given up at the first looks.
