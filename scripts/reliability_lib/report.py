@@ -119,6 +119,28 @@ def passing_table(fitted):
     return table(["set", "right", "right ones passing", "wrong ones passing"], rows)
 
 
+SURE = 0.98
+
+
+def summary(fitted):
+    """How far the probability holds where poses are picked, and of which parts the least of them are right."""
+    chosen = np.isin(fitted.poses.sets, fitted.judged) & (fitted.predicted >= DEFAULT_THRESHOLD)
+    sure = chosen & (fitted.predicted >= SURE)
+    promises = [
+        f"{share(np.mean(fitted.predicted[rows]))} promised, {share(np.mean(fitted.poses.labels[rows]))} right"
+        if rows.any()
+        else "none"
+        for rows in (sure, chosen & ~sure)
+    ]
+    right = {
+        part: fitted.poses.labels[chosen & (fitted.poses.parts == part)].mean()
+        for part in sorted(set(fitted.poses.parts[chosen]))
+    }
+    worst = ", ".join(f"{part} {share(right[part])}" for part in sorted(right, key=right.get)[:3])
+    return f"""From {SURE} on: {promises[0]}. From {DEFAULT_THRESHOLD} to {SURE}: {promises[1]}. Of the poses from {DEFAULT_THRESHOLD} on the fewest are right of {worst}.
+"""
+
+
 def part_table(fitted, threshold):
     """Kept share and precision of each part's poses by the model of the other parts."""
     rows = []
@@ -226,9 +248,6 @@ parts look the same there, and the open scenes hold none.
 
 How well the probabilities hold is told for poses of a part left out of the fit: one fit a part, judged on the part that it does not know. *Kept* is
 the share of the right poses that have at least this probability, *precision* the share of right ones among the poses that have; the other gates are not asked.
-
-In short: from 0.98 on nearly all poses are right. Between 0.9 and 0.98, where the threshold lies, more are wrong than promised of flat-faced parts (box, profile, clip), which fit
-themselves turned, and of searches of the whole cloud.
 """
 
 
@@ -238,6 +257,7 @@ def fit_section(fitted):
 
 {count_table(fitted)}
 {threshold_table(fitted)}
+{summary(fitted)}
 With a probability of {DEFAULT_THRESHOLD}, the default of `min_reliability`, and through all other gates while nothing is usual:
 
 {passing_table(fitted)}

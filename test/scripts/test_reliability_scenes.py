@@ -12,7 +12,7 @@ sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
 
 from benchmark_lib.cases import Scene  # after the path that it is found on
 from benchmark_lib.clouds import read_cloud
-from reliability_lib import coarse, training
+from reliability_lib import coarse, report, training
 from reliability_lib.__main__ import QUICK_PARTS, QUICK_PLAN
 from support import write_part
 
@@ -115,6 +115,27 @@ class LabelsTest(unittest.TestCase):
         chosen, weights = poses.of_fit("whole_cloud")
         self.assertEqual(list(chosen.sets), ["open", "shiny", "foreign"])
         np.testing.assert_array_equal(weights, [1, 0.2, 0.2])
+
+
+class SummaryTest(unittest.TestCase):
+    def summary(self, predicted, labels):
+        count = len(labels)
+        sets = np.array((count - 1) * ["own"] + ["foreign"])
+        parts = np.array(["a", "b"] * count)[:count]
+        poses = training.Poses(np.zeros((count, 1)), np.array(labels), parts, sets, sets, sets)
+        fitted = report.Fitted("region", poses, np.ones(count), None, None, np.array(predicted))
+        return report.summary(fitted)
+
+    def test_tells_what_was_promised_and_what_is_right_of_the_sets_that_the_fit_is_for(self):
+        text = self.summary([0.98, 0.99, 0.9, 0.96, 0.3, 1.0], [1, 0, 1, 1, 0, 0])
+        self.assertIn("From 0.98 on: 0.985 promised, 0.500 right.", text)
+        self.assertIn("From 0.9 to 0.98: 0.930 promised, 1.000 right.", text)
+        self.assertIn("the fewest are right of b 0.500, a 1.000.", text)
+
+    def test_of_no_pose_is_none(self):
+        self.assertIn(
+            "From 0.98 on: none. From 0.9 to 0.98: none.", self.summary([0.1, 0.2], [0, 0])
+        )
 
 
 class CoarseTest(unittest.TestCase):
