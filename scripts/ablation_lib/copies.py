@@ -12,7 +12,7 @@ from PIL import Image
 from benchmark_lib.detection import Bench
 from benchmark_lib.programs import BenchmarkError, digest, run
 
-from compare_lib.comparison import region_text
+from compare_lib.comparison import bin_region_text
 
 NOISE_M = 0.00005  # standard deviation added to the depth, of the order of the sensor's own
 REAL_PART = "pins"  # also the bin that holds the part; the others hold none
@@ -75,7 +75,7 @@ def copy_bins(data, bench, seeds):
         part = source.parent.name
         copy_part(source.parent, bench.part_folder(part))
         unit_m = yaml.safe_load((source / "camera.yaml").read_text())["depth_unit_m"]
-        region = region_text(json.loads((source / "gt.json").read_text()))
+        region = bin_region_text(json.loads((source / "gt.json").read_text()))
         for seed in seeds:
             scene = CopiedScene(part, f"{source.name}-noise-{seed}")
             folder = bench.scene_path(scene)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from benchmark_lib.cases import PACKAGE
 from benchmark_lib.programs import BenchmarkError, Progress, digest, once, program_digest, run
+from benchmark_lib.scene_files import region_text
 
 # This detector's two rows, with their settings.
 OWN = {
@@ -41,7 +42,7 @@ def find_scenes(data, parts, names):
     return chosen
 
 
-def region_text(truth):
+def bin_region_text(truth):
     """The inside of a scene's bin as a region of interest. truth: what gt.json says."""
     side_x, side_y, height = truth["bin"]["size"]
     region = {
@@ -49,12 +50,7 @@ def region_text(truth):
         "min": [WALL_GAP_M - side_x / 2, WALL_GAP_M - side_y / 2, FLOOR_GAP_M],
         "max": [side_x / 2 - WALL_GAP_M, side_y / 2 - WALL_GAP_M, height],
     }
-    return "".join(f"{key}: [{', '.join(map(decimal, v))}]\n" for key, v in region.items())
-
-
-def decimal(value):
-    """Without exponent, which the reader of regions does not take."""
-    return f"{value:.9f}"
+    return region_text(region)
 
 
 class Comparison:
@@ -84,7 +80,7 @@ class Comparison:
             link_files(source / scene.name, target)
             region = target / "roi.yaml"
             if not region.exists():
-                region.write_text(region_text(json.loads((target / "gt.json").read_text())))
+                region.write_text(bin_region_text(json.loads((target / "gt.json").read_text())))
 
     def part_key(self, part, scenes):
         """Of all that the results of a part depend on."""

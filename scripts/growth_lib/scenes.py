@@ -9,6 +9,7 @@ from PIL import Image
 from benchmark_lib.cases import Scene
 from benchmark_lib.detection import Bench
 from benchmark_lib.meshes import FACET, read_facets
+from benchmark_lib.scene_files import camera_text
 
 PART = "bracket"
 COUNT = 16  # parts, where these are not what differs
@@ -30,14 +31,8 @@ class Copy:
     def write(self):
         """Returns the arguments that name the scene to detect_poses."""
         Image.fromarray(self.depth.astype(np.uint16)).save(self.folder / "depth.png")
-        lines = [f"{key}: {text(value)}\n" for key, value in self.camera.items()]
-        (self.folder / "camera.yaml").write_text("".join(lines))
+        (self.folder / "camera.yaml").write_text(camera_text(self.camera))
         return arguments(self.folder)
-
-
-def text(value):
-    """Without exponent, which the reader of cameras does not take."""
-    return f"{value:.9f}" if isinstance(value, float) else value
 
 
 def arguments(folder):

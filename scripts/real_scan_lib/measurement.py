@@ -10,8 +10,6 @@ from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, reliable_pos
 from benchmark_lib.meshes import bounds_m
 from benchmark_lib.programs import Progress
 
-from .scans import cloud_draws, image_draws
-
 VARIANT = "default"
 
 

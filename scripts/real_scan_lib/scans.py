@@ -9,7 +9,7 @@ from PIL import Image
 from ablation_lib.copies import NOISE_M, with_noise
 from benchmark_lib.clouds import read_cloud, write_cloud
 from benchmark_lib.programs import BenchmarkError
-from compare_lib.comparison import decimal
+from benchmark_lib.scene_files import camera_text, region_text
 
 LEFT_OUT = 0.03  # share of a loose cloud's points
 CLOUD_UNIT_M = 0.001  # of one_bin.pcd
@@ -51,10 +51,9 @@ class ImageScan:
         """A scene's folder for one of the bins."""
         folder.mkdir(parents=True, exist_ok=True)
         Image.fromarray(np.ascontiguousarray(self.levels)).save(folder / "depth.png")
-        lines = [f"{key}: {yaml_text(value)}\n" for key, value in self.camera.items()]
-        (folder / "camera.yaml").write_text("".join(lines))
+        (folder / "camera.yaml").write_text(camera_text(self.camera))
         low, high = self.regions[region]
-        (folder / "roi.yaml").write_text(f"min: {numbers(low)}\nmax: {numbers(high)}\n")
+        (folder / "roi.yaml").write_text(region_text({"min": low, "max": high}))
 
 
 @dataclass(frozen=True)
@@ -93,18 +92,8 @@ class CloudScan:
         low, high = INSIDE
         pose = np.eye(4)
         pose[:3, :3] = self.turn
-        (folder / "roi.yaml").write_text(
-            f"min: {numbers(low)}\nmax: {numbers(high)}\npose: {numbers(pose.ravel())}\n"
-        )
-
-
-def yaml_text(value):
-    """Without exponent, which the reader of cameras does not take."""
-    return decimal(value) if isinstance(value, float) else value
-
-
-def numbers(values):
-    return f"[{', '.join(map(decimal, values))}]"
+        region = {"min": low, "max": high, "pose": pose.ravel()}
+        (folder / "roi.yaml").write_text(region_text(region))
 
 
 def image_draws(data):

@@ -11,6 +11,7 @@ import numpy as np
 from benchmark_lib.cases import PRESETS, Scene
 from benchmark_lib.clouds import write_cloud
 from benchmark_lib.detection import Bench
+from benchmark_lib.meshes import bounds_m
 from benchmark_lib.programs import Progress, digest, once
 
 from . import coarse, shiny
@@ -66,7 +67,7 @@ class Kind:
     @property
     def sources(self):
         """The files that decide what a copy holds."""
-        return [Path(inspect.getfile(function)) for function in (self.write, write_cloud)]
+        return [Path(inspect.getfile(function)) for function in (self.write, write_cloud, bounds_m)]
 
     def is_of(self, scene):
         """Whether a scene is copied."""
