@@ -82,9 +82,9 @@ ROWS = (
         "not taken: a choice for cells where a wrong pose costs more than parts left behind",
     ),
     Row(
-        "score-0.4",
-        {"min_score": 0.4},
-        "0.5 is kept for wrong units (docs/decisions.md)",
+        "score-0.5",
+        {"min_score": 0.5},
+        "",
     ),
     Row(
         "no-icp",
@@ -142,14 +142,14 @@ ROWS = (
         "not taken: a suspicious pose among the pins, and AP .016 less on other parts",
     ),
     Row(
-        "references-0.05",
-        {"reference_share": 0.05},
-        "not taken: AP .014 less on other parts",
+        "references-10",
+        {"references_per_part": 10},
+        "",
     ),
     Row(
-        "references-0.2",
-        {"reference_share": 0.2},
-        "not taken: more time brings nothing, but a suspicious pin",
+        "references-40",
+        {"references_per_part": 40},
+        "",
     ),
     Row(
         "lambda-0.5",
@@ -180,6 +180,11 @@ ROWS = (
         "gate-0.01",
         {"depth_gate_rel": 0.01},
         "not taken: loses a tenth of the other parts and nearly all shiny pins",
+    ),
+    Row(
+        "gate-0.02",
+        {"depth_gate_rel": 0.02},
+        "",
     ),
     Row(
         "gate-0.03",

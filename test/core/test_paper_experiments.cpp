@@ -21,7 +21,7 @@ DetectorConfig experimentConfig()
 {
   DetectorConfig config;
   config.model.step_rel = 0.1;
-  config.reference_share = 1.0;
+  config.references_per_part = 1e6;
   return config;
 }
 
@@ -116,7 +116,7 @@ TEST_F(CubeOnPlane, isFlaggedAsMismatchingRegion)
 TEST_F(CubeOnPlane, hasNoReliablePoseWithFewReferencePointsEither)
 {
   DetectorConfig config = experimentConfig();
-  config.reference_share = DetectorConfig().reference_share;
+  config.references_per_part = DetectorConfig().references_per_part;
   const DetectionResult result = detect(config);
   EXPECT_EQ(result.status, DetectionStatus::kNoPickablePose);
   ASSERT_FALSE(result.regions.empty());
@@ -128,7 +128,7 @@ TEST_F(CubeOnPlane, hasNoReliablePoseWithFewReferencePointsEither)
 TEST_F(CubeOnPlane, isBelievedOnlyWithoutTheMismatchTest)
 {
   DetectorConfig config = experimentConfig();
-  config.reference_share = DetectorConfig().reference_share;
+  config.references_per_part = DetectorConfig().references_per_part;
   config.mismatch_test = false;
   const DetectionResult result = detect(config);
   EXPECT_EQ(result.status, DetectionStatus::kOk);
