@@ -10,6 +10,8 @@ from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, reliable_pos
 from benchmark_lib.meshes import bounds_m
 from benchmark_lib.programs import Progress
 
+from .seen import VERDICTS, head_and_tail_m, verdict
+
 VARIANT = "default"
 
 
@@ -31,6 +33,7 @@ class RealScan(CopiedBench):
         mesh = yaml.safe_load((data / "part.yaml").read_text())["mesh"]
         copy_files(data, self.part_folder(REAL_PART), ("part.yaml", mesh))
         self.center_m = sum(bounds_m(data / "part.yaml")) / 2
+        self.ends_m = head_and_tail_m(data / "part.yaml")
 
     def scene_arguments(self, scene):
         folder = self.scene_path(scene)
@@ -39,12 +42,23 @@ class RealScan(CopiedBench):
         region = () if scene.whole_cloud else ("--roi", folder / "roi.yaml")
         return (*(cloud if scene.loose else image), *region)
 
+    def poses(self, scene):
+        """The reliable ones, each T_cloud_model, 4 x 4."""
+        poses = json.loads(self.result_path(VARIANT, scene).read_text())["poses"]
+        return [np.reshape(pose["pose"], (4, 4)) for pose in poses if pose["reliable"]]
+
     def centers(self, scene):
         """Of the part at each reliable pose; n x 3, in the cloud's frame [m]."""
-        poses = json.loads(self.result_path(VARIANT, scene).read_text())["poses"]
-        found = [np.reshape(pose["pose"], (4, 4)) for pose in poses if pose["reliable"]]
-        centers = [pose[:3, :3] @ self.center_m + pose[:3, 3] for pose in found]
+        centers = [pose[:3, :3] @ self.center_m + pose[:3, 3] for pose in self.poses(scene)]
         return np.reshape(centers, (-1, 3))
+
+    def verdicts(self, scene, turn, camera):
+        """How many of the reliable poses are each of seen.VERDICTS. turn: of the scene's camera from that of the colour picture; camera:
+        the latter's."""
+        back = np.eye(4)
+        back[:3, :3] = np.transpose(turn)
+        found = [verdict(back @ pose, self.ends_m, camera) for pose in self.poses(scene)]
+        return [found.count(name) for name in VERDICTS]
 
     def draw(self, scene, path):
         """A picture of the reliable poses over the scan."""
@@ -66,9 +80,10 @@ def write_images(bench, draws):
 
 
 def in_images(bench, draws):
-    """Rows: variant, reliable poses in the part's bin, suspicious ones of them, reliable poses in the other bins. And the
-    first variant's scene with the part. draws: as image_draws()."""
+    """Rows: variant, reliable poses in the part's bin, how many of them are each of seen.VERDICTS, suspicious ones of them, reliable poses in the
+    other bins. And the first variant's scene with the part. draws: as image_draws()."""
     images = write_images(bench, draws)
+    camera = next(iter(draws.values())).camera
     rows = []
     progress = Progress("depth images", len(images))
     for name, scenes in images.items():
@@ -76,7 +91,8 @@ def in_images(bench, draws):
         found = {region: reliable_poses(bench, VARIANT, scene) for region, scene in scenes.items()}
         pins = found.pop(REAL_PART)
         suspicious = suspicious_poses(bench, VARIANT, scenes[REAL_PART])
-        rows.append([name, pins, suspicious, sum(found.values())])
+        verdicts = bench.verdicts(scenes[REAL_PART], draws[name].turn, camera)
+        rows.append([name, pins, *verdicts, suspicious, sum(found.values())])
         progress.step(name, any(made))
     return rows, next(iter(images.values()))[REAL_PART]
 

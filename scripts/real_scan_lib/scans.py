@@ -13,6 +13,7 @@ from benchmark_lib.scene_files import camera_text, region_text
 
 LEFT_OUT = 0.03  # share of a loose cloud's points
 CLOUD_UNIT_M = 0.001  # of one_bin.pcd
+QUARTER_TURN = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])  # what was right is above
 # Inside of its bin, in its camera's frame [m]: depth and height as those of the bins in bins.yaml, which are of the same
 # kind and stand as far away; the sides as far apart as its walls are.
 INSIDE = (np.array([-0.042, -0.065, 0.445]), np.array([0.040, 0.098, 0.4955]))
@@ -25,6 +26,7 @@ class ImageScan:
     levels: np.ndarray
     camera: dict  # as camera.yaml
     regions: dict  # corners min, max by the bin's name; camera frame [m]
+    turn: np.ndarray  # 3 x 3, from the scan's camera
 
     def turned(self):
         """The camera a quarter turn about its axis: what was right is above."""
@@ -41,7 +43,7 @@ class ImageScan:
             )
             for name, (low, high) in self.regions.items()
         }
-        return ImageScan(np.rot90(self.levels), camera, regions)
+        return ImageScan(np.rot90(self.levels), camera, regions, QUARTER_TURN @ self.turn)
 
     def noisy(self, seed):
         """Gaussian noise on what is measured."""
@@ -104,7 +106,7 @@ def image_draws(data):
         levels = np.array(image)
     regions = yaml.safe_load((data / "bins.yaml").read_text())["regions"]
     boxes = {name: (np.array(box["min"]), np.array(box["max"])) for name, box in regions.items()}
-    scan = ImageScan(levels, yaml.safe_load((data / "camera.yaml").read_text()), boxes)
+    scan = ImageScan(levels, yaml.safe_load((data / "camera.yaml").read_text()), boxes, np.eye(3))
     draws = {"as it is": scan}
     turned = scan
     for degrees in (90, 180, 270):

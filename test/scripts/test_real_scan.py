@@ -40,11 +40,11 @@ class ImageScanTest(unittest.TestCase):
         camera = {"width": 50, "height": 30, "fx": 100.0, "fy": 120.0, "cx": 22.0, "cy": 16.5}
         camera.update(depth_unit_m=0.0001, frame_id="camera")
         box = (np.array([-0.03, 0.01, 0.4]), np.array([0.02, 0.06, 0.47]))
-        self.scan = scans.ImageScan(levels, camera, {"bin": box})
+        self.scan = scans.ImageScan(levels, camera, {"bin": box}, np.eye(3))
 
     def test_a_turned_image_sees_the_turned_points(self):
         points = points_of(self.scan)
-        turned = np.column_stack([points[:, 1], -points[:, 0], points[:, 2]])
+        turned = points @ self.scan.turned().turn.T
         turned = turned[np.lexsort(turned.round(9).T)]
         np.testing.assert_allclose(points_of(self.scan.turned()), turned, atol=1e-12)
 
@@ -171,7 +171,8 @@ class MeasurementTest(unittest.TestCase):
         data = Path(folder.name) / "data"
         data.mkdir()
         write_part(data, [[0, 0, 0], [20, 0, 0], [0, -10, 4]])
-        (data / "part.yaml").write_text("unit: mm\nmesh: model.stl\n")
+        symmetries = "symmetries_continuous: [{axis: [1, 0, 0], point: [0, 0, 0]}]"
+        (data / "part.yaml").write_text(f"unit: mm\nmesh: model.stl\n{symmetries}\n")
         self.bench = measurement.RealScan(Path(folder.name) / "bench", data, {})
         self.bench.detect = self.detect
         suspicious = mock.patch.object(measurement, "suspicious_poses", lambda *_: 7)
@@ -210,13 +211,30 @@ class MeasurementTest(unittest.TestCase):
             self.assertEqual(words[0], "--cloud" if loose else "--depth")
             self.assertEqual("--roi" in words, not whole_cloud)
 
+    def test_verdicts_are_those_of_the_camera_that_is_not_turned(self):
+        scene = self.scene("soon")
+        self.bench.detect("default", scene)
+        turn = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+        asked = []
+
+        def verdict(pose, ends, camera):
+            asked.append((pose[:3, 3], ends, camera))
+            return "end for end"
+
+        with mock.patch.object(measurement, "verdict", verdict):
+            self.assertEqual(self.bench.verdicts(scene, turn, "camera"), [0, 2, 0])
+        np.testing.assert_allclose(asked[0][0], [-0.02, 0.01, 0.5])
+        np.testing.assert_allclose(asked[0][1], self.bench.ends_m)
+        self.assertEqual(asked[0][2], "camera")
+
     def test_images_count_the_parts_bin_and_the_others(self):
         levels = np.full((4, 5), 5000, np.uint16)
         box = (np.zeros(3), np.ones(3))
         regions = {name: box for name in ("pins", "motors", "shoos")}
-        scan = scans.ImageScan(levels, {"depth_unit_m": 0.0001}, regions)
+        camera = {"depth_unit_m": 0.0001, "fx": 1.0, "fy": 1.0, "cx": 0.0, "cy": 0.0}
+        scan = scans.ImageScan(levels, camera, regions, np.eye(3))
         rows, first = measurement.in_images(self.bench, {"one": scan, "two": scan})
-        self.assertEqual(rows, [["one", 0, 7, 4], ["two", 0, 7, 4]])
+        self.assertEqual(rows, [["one", 0, 0, 0, 0, 7, 4], ["two", 0, 0, 0, 0, 7, 4]])
         self.assertEqual(first.name, "image-0-pins")
 
     def test_clouds_are_searched_in_the_bin_and_everywhere(self):

@@ -4,6 +4,7 @@ set(scripts_tests
     test_claim
     test_help
     test_loops
+    test_pins_seen
     test_real_scan
     test_reliability
     test_reliability_scenes)

@@ -1,0 +1,88 @@
+"""Where a person sees the pins of the depth image: in the colour picture of the same view, in which a head is plain to the eye
+and most tails are darker. The depth tells the two apart on few of them."""
+
+import numpy as np
+import yaml
+
+from benchmark_lib.meshes import UNITS_M, read_facets
+
+# Head and tail of the line that shines along each pin, in pixels of the colour picture, which has one for 2 x 2 of the depth
+# image. Pins of which the picture shows less than a third are left out.
+PIXELS = 2
+PINS = (
+    ((436.5, 196), (431, 250)),
+    ((446, 209), (501, 198)),
+    ((514, 205.5), (460, 218)),
+    ((434, 270), (454.5, 220)),
+    ((463, 229), (517, 244.5)),
+    ((543, 241), (490, 226)),
+    ((543, 263.5), (489, 249)),
+    ((529.5, 273.5), (477, 255)),
+    ((522.5, 302.5), (480, 265)),
+    ((515.5, 220.5), (564, 195)),
+    ((445.5, 314), (449.5, 260)),
+    ((461, 254), (457, 310)),
+    ((462, 313), (474, 260)),
+    ((487.5, 286), (455.5, 332)),
+    ((457.5, 350), (488, 303)),
+    ((500, 304.5), (471, 353)),
+    ((513.5, 309.5), (482.5, 355)),
+    ((489, 370), (516, 322)),
+    ((502, 395), (518.5, 342)),
+    ((529.5, 377), (529, 323)),
+    ((528, 337), (575, 358.5)),
+    ((542.5, 287), (516.5, 336)),
+    ((532, 282), (543.5, 338)),
+    ((558, 326), (547, 271)),
+    ((441.5, 429), (435, 373)),
+    ((458, 427), (444, 371)),
+    ((473.5, 428.5), (456, 376)),
+    ((461.5, 357.5), (478.5, 410)),
+    ((490, 411), (473.5, 358)),
+    ((527.5, 387), (490, 430)),
+    ((540.5, 389), (502, 431)),
+    ((548, 402), (506.5, 441.5)),
+    ((434.5, 453.5), (490.5, 441.5)),
+    ((433.5, 281), (431, 337)),
+)
+# Both ends of a right pose lie nearer to those of a pin than this, across the line of sight: a tenth of the part's diameter,
+# as for evaluate_poses, and a millimetre for the line, which need not run along the middle.
+NEAR_M = 0.0043
+VERDICTS = ("right", "end for end", "elsewhere")
+
+
+def head_and_tail_m(part_file):
+    """Ends of the axis of a part, which is one of revolution about its first continuous symmetry; rows, in its mesh's frame. Head: the
+    end beside the widest place."""
+    part = yaml.safe_load(part_file.read_text())
+    symmetry = part["symmetries_continuous"][0]
+    axis = np.array(symmetry["axis"]) / np.linalg.norm(symmetry["axis"])
+    corners = read_facets(part_file.parent / part["mesh"])["corners"].reshape(-1, 3).astype(float)
+    offsets = corners - symmetry["point"]
+    along = offsets @ axis
+    widest = along[np.linalg.norm(offsets - np.outer(along, axis), axis=1).argmax()]
+    ends = sorted((along.min(), along.max()), key=lambda end: abs(end - widest))
+    return (symmetry["point"] + np.outer(ends, axis)) * UNITS_M[part["unit"]]
+
+
+def in_picture(points, camera):
+    """Pixels of the colour picture that points (n x 3, in the frame of the depth image's camera [m]) fall on, and the metres that one of them is
+    wide there."""
+    x, y, z = points.T
+    columns = camera["fx"] * x / z + camera["cx"]
+    rows = camera["fy"] * y / z + camera["cy"]
+    return (np.column_stack([columns, rows]) + 0.5) / PIXELS - 0.5, PIXELS * z / camera["fx"]
+
+
+def verdict(pose, ends, camera, pins=PINS):
+    """One of VERDICTS. pose: T_camera_model, 4 x 4; ends: as head_and_tail_m()."""
+    pixels, width_m = in_picture(ends @ pose[:3, :3].T + pose[:3, 3], camera)
+    seen = np.asarray(pins, float)
+
+    def farthest_m(order):
+        return (np.linalg.norm(seen[:, order] - pixels, axis=2) * width_m).max(axis=1).min()
+
+    right, turned = farthest_m([0, 1]), farthest_m([1, 0])
+    if min(right, turned) > NEAR_M:
+        return "elsewhere"
+    return "right" if right <= turned else "end for end"

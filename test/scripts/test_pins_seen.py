@@ -1,0 +1,102 @@
+"""The judgement of poses by where a person sees the pins."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+PACKAGE = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
+
+from real_scan_lib import seen  # after the path that it is found on
+from support import write_part
+
+CAMERA = {"fx": 1800.0, "fy": 1790.0, "cx": 980.0, "cy": 610.0}
+
+
+class EndsTest(unittest.TestCase):
+    def ends(self, corners_mm, symmetry):
+        with tempfile.TemporaryDirectory() as folder:
+            write_part(Path(folder), corners_mm)
+            part_file = Path(folder) / "part.yaml"
+            part_file.write_text(
+                f"unit: mm\nmesh: model.stl\nsymmetries_continuous: [{symmetry}]\n"
+            )
+            return seen.head_and_tail_m(part_file)
+
+    def test_the_head_is_where_the_part_is_widest(self):
+        symmetry = "{axis: [2, 0, 0], point: [0, 1, 0]}"
+        ends = self.ends([[0, 6, 0], [20, 3, 0], [7, 1, 2]], symmetry)
+        np.testing.assert_allclose(ends, [[0, 0.001, 0], [0.02, 0.001, 0]], atol=1e-9)
+        ends = self.ends([[0, 3, 0], [20, 6, 0], [7, 1, 2]], symmetry)
+        np.testing.assert_allclose(ends, [[0.02, 0.001, 0], [0, 0.001, 0]], atol=1e-9)
+
+    def test_the_axis_may_lie_askew(self):
+        slope = np.array([1, 0, -1]) / 2**0.5
+        side = np.array([0, 1, 0])
+        corners = [-10 * slope + 4 * side, 12 * slope + side, 2 * side]
+        symmetry = f"{{axis: {slope.tolist()}, point: [0, 0, 0]}}"
+        expected = np.outer([-0.010, 0.012], slope)
+        np.testing.assert_allclose(self.ends(corners, symmetry), expected, atol=1e-6)
+
+
+class VerdictTest(unittest.TestCase):
+    """Three pins in the picture, and a part of 30 mm along x on one of them."""
+
+    ENDS = np.array([[-0.015, 0, 0], [0.015, 0, 0]])
+
+    def setUp(self):
+        self.pose = np.eye(4)
+        self.pose[:3, :3] = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]
+        self.pose[:3, 3] = [-0.02, 0.03, 0.49]
+        pixels, self.width_m = seen.in_picture(
+            self.ENDS @ self.pose[:3, :3].T + self.pose[:3, 3], CAMERA
+        )
+        self.pins = [pixels + 70, pixels, pixels - [100, 0]]
+
+    def verdict(self, pose):
+        return seen.verdict(pose, self.ENDS, CAMERA, self.pins)
+
+    def moved(self, offset_m):
+        pose = self.pose.copy()
+        pose[:3, 3] += offset_m
+        return pose
+
+    def test_a_pixel_of_the_picture_is_two_of_the_image(self):
+        # the corner between the image's first four pixels is the middle of the picture's first
+        z = 0.5
+        point = np.array([[(0.5 - CAMERA["cx"]) / 1800 * z, (0.5 - CAMERA["cy"]) / 1790 * z, z]])
+        pixels, width_m = seen.in_picture(point, CAMERA)
+        np.testing.assert_allclose(pixels, [[0, 0]], atol=1e-9)
+        np.testing.assert_allclose(width_m, [2 * z / 1800])
+
+    def test_a_pose_on_a_pin_is_right(self):
+        self.assertEqual(self.verdict(self.pose), "right")
+        self.assertEqual(self.verdict(self.moved([0.9 * seen.NEAR_M, 0, 0])), "right")
+        self.assertEqual(self.verdict(self.moved([0, 0, 0.002])), "right")
+
+    def test_head_on_tail_is_end_for_end(self):
+        turned = self.pose.copy()
+        turned[:3, :3] = self.pose[:3, :3] @ np.diag([-1, 1, -1])
+        self.assertEqual(self.verdict(turned), "end for end")
+
+    def test_a_pose_beside_every_pin_is_elsewhere(self):
+        self.assertEqual(self.verdict(self.moved([1.1 * seen.NEAR_M, 0, 0])), "elsewhere")
+        across = self.pose.copy()
+        across[:3, :3] = np.eye(3)
+        self.assertEqual(self.verdict(across), "elsewhere")
+
+    def test_all_pins_that_are_seen_are_as_long(self):
+        head, tail = np.array(seen.PINS).swapaxes(0, 1)
+        long = np.linalg.norm(head - tail, axis=1)
+        self.assertGreater(long.min(), 0.9 * np.median(long))
+        self.assertLess(long.max(), 1.1 * np.median(long))
+        middles = (head + tail) / 2
+        apart = np.linalg.norm(middles[:, None] - middles, axis=2) + 1000 * np.eye(len(middles))
+        self.assertGreater(apart.min(), 5)  # none twice
+
+
+if __name__ == "__main__":
+    unittest.main()
