@@ -1,12 +1,10 @@
 """Command line of scripts/ablation."""
 
 import argparse
-import concurrent.futures
 import json
 import os
 import statistics
 import sys
-from functools import partial
 from pathlib import Path
 
 from benchmark_lib import cases
@@ -15,7 +13,7 @@ from benchmark_lib.programs import Progress, provenance, run_script
 from real_scan_lib.measurement import RealScan, write_images
 from real_scan_lib.scans import image_draws
 
-from .copies import REAL_PART, CopiedBench, copy_bins, reliable_poses, suspicious_poses
+from .copies import REAL_PART, CopiedBench, copy_bins, reliable_poses
 from .edited_core import EditedCore
 from .report import write_page
 from .rows import ROWS
@@ -76,7 +74,8 @@ class Ablation:
         for bench in (self.bins, self.real, self.own):
             bench.cores = cores
         self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
-        self.images = write_images(self.real, image_draws(options.data / "real/pins"))
+        self.draws = image_draws(options.data / "real/pins")
+        self.images = write_images(self.real, self.draws)
         self.own_scenes = [
             cases.Scene(part, FILL, preset, OWN_SEED)
             for part in cases.all_parts()
@@ -91,17 +90,19 @@ class Ablation:
         return {"bins": bins, "own": own, **self.real_figures(row.name)}
 
     def real_figures(self, variant):
-        """Of the real scan: reliable poses in the part's bin, as it is and of each of its variants, suspicious ones of each,
+        """Of the real scan: reliable poses in the part's bin, as it is and of each of its variants, how many of each are not right,
         and reliable poses in the other bins, as they are."""
         pins = [scenes[REAL_PART] for scenes in self.images.values()]
         as_it_is = next(iter(self.images.values()))
         others = [scene for region, scene in as_it_is.items() if region != REAL_PART]
         self.real.detect_side_by_side(variant, pins + others)
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            suspicious = list(pool.map(partial(suspicious_poses, self.real, variant), pins))
+        verdicts = [
+            self.real.verdicts(scene, scan.turn, variant)
+            for scene, scan in zip(pins, self.draws.values())
+        ]
         return {
-            "pins": [reliable_poses(self.real, variant, scene) for scene in pins],
-            "suspicious": suspicious,
+            "pins": [sum(counts) for counts in verdicts],
+            "not_right": [sum(counts[1:]) for counts in verdicts],
             "others": sum(reliable_poses(self.real, variant, scene) for scene in others),
         }
 

@@ -33,7 +33,7 @@ def over_seeds(bins, part, key):
 def step_table(rows, figures):
     """One line a row."""
     heading = ["setting or step", "AP", "P", "R", "own AP", "own P", "own R", "pins", "mean pins"]
-    heading += ["suspicious", "other bins", "time"]
+    heading += ["not right", "other bins", "time"]
     lines = []
     for row in rows:
         figure = figures[row.name]
@@ -42,7 +42,7 @@ def step_table(rows, figures):
             + [number(over_seeds(figure["bins"], "ALL", key), 3) for key in KEYS]
             + [number(figure["own"]["ALL"][key], 3) for key in KEYS]
             + [figure["pins"][0], number(statistics.mean(figure["pins"]), 1)]
-            + [number(statistics.mean(figure["suspicious"]), 1), figure["others"]]
+            + [number(statistics.mean(figure["not_right"]), 1), figure["others"]]
             + [number(figure["time"], 2)]
         )
     return table(heading, lines)
@@ -95,7 +95,7 @@ which keeps what is done in `{facts['folder']}`. Commit {facts['commit']}; {fact
   {NOISE_M * 1000:g} mm added to their depth; the detector itself draws no random numbers. Judged by `evaluate_poses`.
 - own: simulated scenes of each of the package's parts, {facts['fill']} in the bin, three sensors, seed {facts['own_seed']}: not those of scripts/benchmark.
 - pins: reliable poses on the real scan's bin of pins (about 36 lie there); the mean over it and the turned and noisier variants of scripts/real_scan,
-  and of how many of these poses `check_poses` finds suspicious; the reliable poses in the three bins beside it, where no pin lies and every pose is wrong.
+  and how many of these are not right by the colour picture beside the scan, in the mean; the reliable poses in the three bins beside it, where no pin lies and every pose is wrong.
 - time: of a whole detection, over that of the first row; median over a scene of each part of the first two sets, which all rows see one after the other.
 """
 

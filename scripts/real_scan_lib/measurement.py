@@ -34,6 +34,7 @@ class RealScan(CopiedBench):
         copy_files(data, self.part_folder(REAL_PART), ("part.yaml", mesh))
         self.center_m = sum(bounds_m(data / "part.yaml")) / 2
         self.ends_m = head_and_tail_m(data / "part.yaml")
+        self.camera = yaml.safe_load((data / "camera.yaml").read_text())
 
     def scene_arguments(self, scene):
         folder = self.scene_path(scene)
@@ -42,9 +43,9 @@ class RealScan(CopiedBench):
         region = () if scene.whole_cloud else ("--roi", folder / "roi.yaml")
         return (*(cloud if scene.loose else image), *region)
 
-    def poses(self, scene):
+    def poses(self, scene, variant=VARIANT):
         """The reliable ones, each T_cloud_model, 4 x 4."""
-        poses = json.loads(self.result_path(VARIANT, scene).read_text())["poses"]
+        poses = json.loads(self.result_path(variant, scene).read_text())["poses"]
         return [np.reshape(pose["pose"], (4, 4)) for pose in poses if pose["reliable"]]
 
     def centers(self, scene):
@@ -52,12 +53,12 @@ class RealScan(CopiedBench):
         centers = [pose[:3, :3] @ self.center_m + pose[:3, 3] for pose in self.poses(scene)]
         return np.reshape(centers, (-1, 3))
 
-    def verdicts(self, scene, turn, camera):
-        """How many of the reliable poses are each of seen.VERDICTS. turn: of the scene's camera from that of the colour picture; camera:
-        the latter's."""
+    def verdicts(self, scene, turn, variant=VARIANT):
+        """How many of the reliable poses in a depth image are each of seen.VERDICTS. turn: of its camera from that of the scan."""
         back = np.eye(4)
         back[:3, :3] = np.transpose(turn)
-        found = [verdict(back @ pose, self.ends_m, camera) for pose in self.poses(scene)]
+        poses = self.poses(scene, variant)
+        found = [verdict(back @ pose, self.ends_m, self.camera) for pose in poses]
         return [found.count(name) for name in VERDICTS]
 
     def draw(self, scene, path):
@@ -83,7 +84,6 @@ def in_images(bench, draws):
     """Rows: variant, reliable poses in the part's bin, how many of them are each of seen.VERDICTS, suspicious ones of them, reliable poses in the
     other bins. And the first variant's scene with the part. draws: as image_draws()."""
     images = write_images(bench, draws)
-    camera = next(iter(draws.values())).camera
     rows = []
     progress = Progress("depth images", len(images))
     for name, scenes in images.items():
@@ -91,7 +91,7 @@ def in_images(bench, draws):
         found = {region: reliable_poses(bench, VARIANT, scene) for region, scene in scenes.items()}
         pins = found.pop(REAL_PART)
         suspicious = suspicious_poses(bench, VARIANT, scenes[REAL_PART])
-        verdicts = bench.verdicts(scenes[REAL_PART], draws[name].turn, camera)
+        verdicts = bench.verdicts(scenes[REAL_PART], draws[name].turn)
         rows.append([name, pins, *verdicts, suspicious, sum(found.values())])
         progress.step(name, any(made))
     return rows, next(iter(images.values()))[REAL_PART]

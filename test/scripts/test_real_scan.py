@@ -173,6 +173,7 @@ class MeasurementTest(unittest.TestCase):
         write_part(data, [[0, 0, 0], [20, 0, 0], [0, -10, 4]])
         symmetries = "symmetries_continuous: [{axis: [1, 0, 0], point: [0, 0, 0]}]"
         (data / "part.yaml").write_text(f"unit: mm\nmesh: model.stl\n{symmetries}\n")
+        (data / "camera.yaml").write_text("{fx: 1.0, fy: 1.0, cx: 0.0, cy: 0.0}\n")
         self.bench = measurement.RealScan(Path(folder.name) / "bench", data, {})
         self.bench.detect = self.detect
         suspicious = mock.patch.object(measurement, "suspicious_poses", lambda *_: 7)
@@ -222,17 +223,16 @@ class MeasurementTest(unittest.TestCase):
             return "end for end"
 
         with mock.patch.object(measurement, "verdict", verdict):
-            self.assertEqual(self.bench.verdicts(scene, turn, "camera"), [0, 2, 0])
+            self.assertEqual(self.bench.verdicts(scene, turn), [0, 2, 0])
         np.testing.assert_allclose(asked[0][0], [-0.02, 0.01, 0.5])
         np.testing.assert_allclose(asked[0][1], self.bench.ends_m)
-        self.assertEqual(asked[0][2], "camera")
+        self.assertEqual(asked[0][2]["fx"], 1)
 
     def test_images_count_the_parts_bin_and_the_others(self):
         levels = np.full((4, 5), 5000, np.uint16)
         box = (np.zeros(3), np.ones(3))
         regions = {name: box for name in ("pins", "motors", "shoos")}
-        camera = {"depth_unit_m": 0.0001, "fx": 1.0, "fy": 1.0, "cx": 0.0, "cy": 0.0}
-        scan = scans.ImageScan(levels, camera, regions, np.eye(3))
+        scan = scans.ImageScan(levels, {"depth_unit_m": 0.0001}, regions, np.eye(3))
         rows, first = measurement.in_images(self.bench, {"one": scan, "two": scan})
         self.assertEqual(rows, [["one", 0, 0, 0, 0, 7, 4], ["two", 0, 0, 0, 0, 7, 4]])
         self.assertEqual(first.name, "image-0-pins")
