@@ -142,14 +142,14 @@ ROWS = (
         "not taken: a suspicious pose among the pins, and AP .016 less on other parts",
     ),
     Row(
-        "references-10",
-        {"references_per_part": 10},
-        "",
+        "references-0.05",
+        {"reference_share": 0.05},
+        "not taken: AP .014 less on other parts",
     ),
     Row(
-        "references-40",
-        {"references_per_part": 40},
-        "",
+        "references-0.2",
+        {"reference_share": 0.2},
+        "not taken: more time brings nothing, but a suspicious pin",
     ),
     Row(
         "lambda-0.5",
@@ -182,8 +182,8 @@ ROWS = (
         "not taken: loses a tenth of the other parts and nearly all shiny pins",
     ),
     Row(
-        "gate-0.02",
-        {"depth_gate_rel": 0.02},
+        "gate-0.025",
+        {"depth_gate_rel": 0.025},
         "",
     ),
     Row(

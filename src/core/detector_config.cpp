@@ -40,7 +40,7 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("max_points", max_points, 1, kMany);
   check.within("pixels_per_diameter", pixels_per_diameter, 20.0, kHuge);
   check.within("normal_radius_px", normal_radius_px, 1, 10);
-  check.within("references_per_part", references_per_part, 1.0, kHuge);
+  check.within("reference_share", reference_share, kTiny, 1.0);
   check.within("lambda", lambda, 0.0, 1.0);
   check.within("v_min", v_min, kTiny, 1.0);
   check.within("peaks_per_reference", peaks_per_reference, 1, 10);

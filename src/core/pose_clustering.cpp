@@ -2,7 +2,6 @@
 
 #include "ppf_bin_picking/core/dbscan.hpp"
 #include "ppf_bin_picking/core/pca.hpp"
-#include "ppf_bin_picking/core/ppf_matcher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,8 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr double kEpsPerStep = 1.0;
-constexpr double kCoreShare = 0.05;  // of a part's reference points
+constexpr double kVisibleShare = 0.25;  // of a model's points that a camera sees of a part, about
+constexpr double kCoreShare = 0.05;     // of those that are reference points
 constexpr std::size_t kLeastCoreSize = 3;
 
 std::vector<PoseHypothesis> ofCluster(const std::vector<PoseHypothesis>& hypotheses,
@@ -54,8 +54,9 @@ double dbscanRadius(const DetectorConfig& config, const PpfModel& model)
 std::size_t dbscanCoreSize(const DetectorConfig& config, const PpfModel& model)
 {
   if (config.minpts > 0) return static_cast<std::size_t>(config.minpts);
-  const double references = std::min(config.references_per_part, visiblePoints(model));
-  return std::max(kLeastCoreSize, static_cast<std::size_t>(std::lround(kCoreShare * references)));
+  const double visible =
+      kVisibleShare * config.reference_share * static_cast<double>(model.data().points.size());
+  return std::max(kLeastCoreSize, static_cast<std::size_t>(std::lround(kCoreShare * visible)));
 }
 
 std::vector<HypothesisCluster> clusterHypotheses(const DetectorConfig& config,

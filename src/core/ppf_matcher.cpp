@@ -13,8 +13,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kVisibleShare = 0.25;  // of a model's points that a camera sees of a part, about
-
 /// The scene points around a reference point as arrays, and the pairs with it.
 struct Neighborhood
 {
@@ -125,25 +123,14 @@ std::uint32_t voteWeight(const Eigen::Vector3f& n1, const Eigen::Vector3f& n2, d
   return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(weight * kVoteUnit)));
 }
 
-double visiblePoints(const PpfModel& model)
-{
-  return kVisibleShare * static_cast<double>(model.data().points.size());
-}
-
-std::size_t referenceCount(std::size_t scene_points, const PpfModel& model,
-                           const DetectorConfig& config)
-{
-  const double share = std::min(1.0, config.references_per_part / visiblePoints(model));
-  return static_cast<std::size_t>(std::ceil(share * static_cast<double>(scene_points)));
-}
-
 std::vector<PoseHypothesis> matchModel(const OrientedPoints& scene, const PpfModel& model,
                                        const DetectorConfig& config, const Deadline& deadline)
 {
   const PpfModelData& data = model.data();
   const Matching matching{scene, data, config, FeatureQuantizer(data.parameters, data.diameter_m),
                           NeighborSearch(scene.points)};
-  const std::size_t references = referenceCount(scene.size(), model, config);
+  const auto references = static_cast<std::size_t>(
+      std::ceil(config.reference_share * static_cast<double>(scene.size())));
   std::vector<std::vector<PoseHypothesis>> peaks(references);
   const auto match = [&](std::size_t i)
   {

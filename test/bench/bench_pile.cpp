@@ -123,7 +123,8 @@ VoteCount countVotes(const OrientedPoints& scene, const PpfModel& model,
   const PpfModelData& data = model.data();
   const FeatureQuantizer quantizer(data.parameters, data.diameter_m);
   const NeighborSearch search(scene.points);
-  const std::size_t references = referenceCount(scene.size(), model, config);
+  const auto references = static_cast<std::size_t>(
+      std::ceil(config.reference_share * static_cast<double>(scene.size())));
   VoteCount count;
   std::vector<std::uint32_t> near;
   for (std::size_t k = 0; k < references; ++k)

@@ -1,5 +1,4 @@
 #include "ppf_bin_picking/core/pose_clustering.hpp"
-#include "ppf_bin_picking/core/ppf_matcher.hpp"
 
 #include "support/shapes.hpp"
 #include "support/synthetic.hpp"
@@ -7,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace ppf_bin_picking
 {
@@ -202,16 +200,6 @@ TEST_F(PoseClustering, takesItsSizesFromTheConfiguration)
   config_.minpts = 17;
   EXPECT_NEAR(dbscanRadius(config_, model_), 0.3 * model_.diameter(), 1e-9);
   EXPECT_EQ(dbscanCoreSize(config_, model_), 17U);
-}
-
-TEST_F(PoseClustering, asksForATwentiethOfAPartsReferencePointsInACore)
-{
-  config_.references_per_part = 20;
-  EXPECT_EQ(dbscanCoreSize(config_, model_), 3U);  // never less
-  config_.references_per_part = 1e6;
-  const double visible = visiblePoints(model_);
-  EXPECT_EQ(dbscanCoreSize(config_, model_),
-            std::max<std::size_t>(3, static_cast<std::size_t>(std::lround(visible / 20))));
 }
 }  // namespace
 }  // namespace ppf_bin_picking

@@ -38,7 +38,7 @@ TEST(DetectorConfigFile, ofTheFastSettingsChangesNothingThatModelsDependOn)
   const DetectorConfig usual;
   EXPECT_TRUE(fast.problems().empty());
   EXPECT_TRUE(fast.model == usual.model);
-  EXPECT_LT(fast.references_per_part, usual.references_per_part);
+  EXPECT_LT(fast.reference_share, usual.reference_share);
   EXPECT_LT(fast.icp_iterations, usual.icp_iterations);
   EXPECT_GT(fast.min_sparse_balance, usual.min_sparse_balance);
 }

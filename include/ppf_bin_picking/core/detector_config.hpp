@@ -40,11 +40,11 @@ struct DetectorConfig
   int normal_radius_px = 2;          ///< Half window of the plane fits in the image. In [1, 10].
 
   // Voting
-  double references_per_part = 20;  ///< Reference points on a part in full sight, about. >= 1.
-  double lambda = 0.0;              ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
-  double v_min = 0.1;               ///< Smallest weight of a vote. (0, 1].
-  int peaks_per_reference = 5;      ///< Peaks kept of each reference point's accumulator. [1, 10].
-  double peak_ratio = 0.9;          ///< Further peaks reach this share of the best. (0, 1].
+  double reference_share = 0.1;  ///< Share of the scene points that are reference points. (0, 1].
+  double lambda = 0.0;           ///< Weight of a vote: max(v_min, 1 - lambda |n1 . n2|). [0, 1].
+  double v_min = 0.1;            ///< Smallest weight of a vote. (0, 1].
+  int peaks_per_reference = 5;   ///< Peaks kept of each reference point's accumulator. [1, 10].
+  double peak_ratio = 0.9;       ///< Further peaks reach this share of the best. (0, 1].
 
   // Clustering
   Clustering clustering = Clustering::kDbscan;  ///< `dbscan` or `greedy`.
@@ -74,7 +74,7 @@ struct DetectorConfig
   double min_look_balance = -0.2;    ///< ... or worse than this after the first look. [-2, 1].
   int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
   bool climb = true;  ///< Poses that the cloud says little for climb, see evidence_climb.hpp.
-  double depth_gate_rel = 0.025;   ///< A surface confirms a pose within this distance. > 0.
+  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
   double min_score = 0.4;          ///< Poses scoring less are not reliable. [0, 1].
   double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
@@ -101,7 +101,7 @@ void visitFields(Config&& config, Visitor&& visit)
   visit("use_cloud_normals", config.use_cloud_normals);
   visit("pixels_per_diameter", config.pixels_per_diameter);
   visit("normal_radius_px", config.normal_radius_px);
-  visit("references_per_part", config.references_per_part);
+  visit("reference_share", config.reference_share);
   visit("lambda", config.lambda);
   visit("v_min", config.v_min);
   visit("peaks_per_reference", config.peaks_per_reference);

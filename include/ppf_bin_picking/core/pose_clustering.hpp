@@ -30,8 +30,8 @@ std::vector<PoseHypothesis> highVoteHypotheses(const std::vector<PoseHypothesis>
 /// DBSCAN radius [m]: eps_rel of the diameter, or one sampling step if eps_rel is 0.
 double dbscanRadius(const DetectorConfig& config, const PpfModel& model);
 
-/// DBSCAN core size: minpts, or, if that is 0, a twentieth of the reference points on a part in
-/// full sight, at least 3.
+/// DBSCAN core size: minpts, or, if that is 0, a twentieth of the reference points on the quarter
+/// of a part's surface that a camera sees, at least 3.
 std::size_t dbscanCoreSize(const DetectorConfig& config, const PpfModel& model);
 
 /// Labels each hypothesis with its cluster, writes it into `cluster`, and describes the clusters:

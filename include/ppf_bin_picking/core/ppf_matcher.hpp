@@ -7,7 +7,6 @@
 #include "ppf_bin_picking/core/ppf_model.hpp"
 #include "ppf_bin_picking/core/surface_sampling.hpp"
 
-#include <cstddef>
 #include <vector>
 
 namespace ppf_bin_picking
@@ -19,16 +18,6 @@ constexpr std::uint32_t kVoteUnit = 16;
 /// least 1.
 std::uint32_t voteWeight(const Eigen::Vector3f& n1, const Eigen::Vector3f& n2, double lambda,
                          double v_min);
-
-/// How many of a model's points a camera sees of a part in full sight: a quarter, about.
-double visiblePoints(const PpfModel& model);
-
-/// How many of a scene's points are reference points: so many that references_per_part of them lie
-/// on a part in full sight, if the scene is sampled as the model is; at most all. A share of the
-/// scene that is the same for all parts would leave a slender part few, and give a large one more
-/// than it needs.
-std::size_t referenceCount(std::size_t scene_points, const PpfModel& model,
-                           const DetectorConfig& config);
 
 /// Votes of every pair of a reference point and a scene point no farther off than the model's
 /// diameter (Drost et al. 2010, section 3.3), and the peaks of each reference point's accumulator
