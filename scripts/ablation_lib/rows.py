@@ -84,7 +84,7 @@ ROWS = (
     Row(
         "score-0.5",
         {"min_score": 0.5},
-        "",
+        "not taken: costs parts that are seen in strips (docs/decisions.md)",
     ),
     Row(
         "no-icp",
@@ -184,7 +184,7 @@ ROWS = (
     Row(
         "gate-0.025",
         {"depth_gate_rel": 0.025},
-        "",
+        "not taken: more parts in simulation, but a real pin end for end (docs/decisions.md)",
     ),
     Row(
         "gate-0.03",

@@ -54,7 +54,7 @@ class RealScan(CopiedBench):
         return np.reshape(centers, (-1, 3))
 
     def verdicts(self, scene, turn, variant=VARIANT):
-        """How many of the reliable poses in a depth image are each of seen.VERDICTS. turn: of its camera from that of the scan."""
+        """How many of the reliable poses in a depth image are each of seen.VERDICTS. turn: of its camera from the scan's."""
         back = np.eye(4)
         back[:3, :3] = np.transpose(turn)
         poses = self.poses(scene, variant)
@@ -81,18 +81,21 @@ def write_images(bench, draws):
 
 
 def in_images(bench, draws):
-    """Rows: variant, reliable poses in the part's bin, how many of them are each of seen.VERDICTS, suspicious ones of them, reliable poses in the
-    other bins. And the first variant's scene with the part. draws: as image_draws()."""
+    """Rows: variant, reliable poses in the part's bin, how many of them are each of seen.VERDICTS, suspicious ones of them,
+    reliable poses in the other bins. And the first variant's scene with the part. draws: as image_draws().
+    """
     images = write_images(bench, draws)
     rows = []
     progress = Progress("depth images", len(images))
     for name, scenes in images.items():
         made = [bench.detect(VARIANT, scene) for scene in scenes.values()]
-        found = {region: reliable_poses(bench, VARIANT, scene) for region, scene in scenes.items()}
-        pins = found.pop(REAL_PART)
-        suspicious = suspicious_poses(bench, VARIANT, scenes[REAL_PART])
-        verdicts = bench.verdicts(scenes[REAL_PART], draws[name].turn)
-        rows.append([name, pins, *verdicts, suspicious, sum(found.values())])
+        pins = scenes[REAL_PART]
+        verdicts = bench.verdicts(pins, draws[name].turn)
+        suspicious = suspicious_poses(bench, VARIANT, pins)
+        others = [
+            reliable_poses(bench, VARIANT, scene) for scene in scenes.values() if scene != pins
+        ]
+        rows.append([name, sum(verdicts), *verdicts, suspicious, sum(others)])
         progress.step(name, any(made))
     return rows, next(iter(images.values()))[REAL_PART]
 

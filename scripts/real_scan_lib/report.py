@@ -28,9 +28,9 @@ def write_page(facts, image_rows, cloud_rows):
 
 Reliable poses of a shiny pin in a depth image of four bins, of which one holds about 36 pins and the others none, and in a loose cloud of another bin
 with about 20, a point each millimetre on pins six thick. What is told is how many poses pass, how many of them `check_poses` finds suspicious, and
-how many lie where no pin can. Of the image there is a colour picture beside it, in which a person sees {len(PINS)} pins and which end is the head; a pose is right if its ends
-lie within {NEAR_M * 1000:g} mm of a pin's there, end for end if they do the other way round, elsewhere if not (`scripts/real_scan_lib/seen.py`). Of the cloud there is none: look at
-the pictures. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
+how many lie where no pin can. Beside the image there is a colour picture, in which a person sees {len(PINS)} pins and which end is the head; a pose is right if its ends
+lie within {NEAR_M * 1000:g} mm of a pin's there, across the line of sight, end for end if they do the other way round, elsewhere if neither, also on a pin too hidden to be listed
+(`scripts/real_scan_lib/seen.py`). Beside the cloud there is none: `check_poses` does not tell head from tail where a pin is a few points wide, so look at the pictures. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
 its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order. Written by
 
     {facts["command"]}

@@ -29,7 +29,7 @@ class ImageScan:
     turn: np.ndarray  # 3 x 3, from the scan's camera
 
     def turned(self):
-        """The camera a quarter turn about its axis: what was right is above."""
+        """The camera a quarter turn about its axis."""
         camera = {
             **self.camera,
             **{"width": self.camera["height"], "height": self.camera["width"]},
@@ -37,10 +37,7 @@ class ImageScan:
             **{"cx": self.camera["cy"], "cy": self.camera["width"] - 1 - self.camera["cx"]},
         }
         regions = {
-            name: (
-                np.array([low[1], -high[0], low[2]]),
-                np.array([high[1], -low[0], high[2]]),
-            )
+            name: np.sort([QUARTER_TURN @ low, QUARTER_TURN @ high], axis=0)
             for name, (low, high) in self.regions.items()
         }
         return ImageScan(np.rot90(self.levels), camera, regions, QUARTER_TURN @ self.turn)

@@ -1,14 +1,14 @@
-"""Where a person sees the pins of the depth image: in the colour picture of the same view, in which a head is plain to the eye
-and most tails are darker. The depth tells the two apart on few of them."""
+"""Where a person sees the pins of the depth image: in the colour picture of the same view, in which a head is plain
+to the eye and most tails are darker. The depth alone tells head from tail on few pins."""
 
 import numpy as np
 import yaml
 
 from benchmark_lib.meshes import UNITS_M, read_facets
 
-# Head and tail of the line that shines along each pin, in pixels of the colour picture, which has one for 2 x 2 of the depth
-# image. Pins of which the picture shows less than a third are left out.
-PIXELS = 2
+# Head and tail of the line that shines along each pin, in pixels of the colour picture counted from its corner (the middle
+# of the first pixel is at 0.5). Pins of which less than a third is to be seen are left out. Ends that other pins hide are
+# where the others' length puts them.
 PINS = (
     ((436.5, 196), (431, 250)),
     ((446, 209), (501, 198)),
@@ -30,7 +30,7 @@ PINS = (
     ((489, 370), (516, 322)),
     ((502, 395), (518.5, 342)),
     ((529.5, 377), (529, 323)),
-    ((528, 337), (575, 358.5)),
+    ((525, 336), (574, 358)),
     ((542.5, 287), (516.5, 336)),
     ((532, 282), (543.5, 338)),
     ((558, 326), (547, 271)),
@@ -39,21 +39,22 @@ PINS = (
     ((473.5, 428.5), (456, 376)),
     ((461.5, 357.5), (478.5, 410)),
     ((490, 411), (473.5, 358)),
-    ((527.5, 387), (490, 430)),
+    ((525, 387), (490, 430)),
     ((540.5, 389), (502, 431)),
     ((548, 402), (506.5, 441.5)),
     ((434.5, 453.5), (490.5, 441.5)),
     ((433.5, 281), (431, 337)),
 )
+PIXELS = 2  # of the depth image, along a pixel of the colour picture
 # Both ends of a right pose lie nearer to those of a pin than this, across the line of sight: a tenth of the part's diameter,
-# as for evaluate_poses, and a millimetre for the line, which need not run along the middle.
-NEAR_M = 0.0043
+# as for evaluate_poses. The lines end half a millimetre within the pins.
+NEAR_M = 0.0033
 VERDICTS = ("right", "end for end", "elsewhere")
 
 
 def head_and_tail_m(part_file):
-    """Ends of the axis of a part, which is one of revolution about its first continuous symmetry; rows, in its mesh's frame. Head: the
-    end beside the widest place."""
+    """Ends of the axis of a part, which is one of revolution about its first continuous symmetry; rows, in its mesh's frame.
+    Head: the end beside the widest place."""
     part = yaml.safe_load(part_file.read_text())
     symmetry = part["symmetries_continuous"][0]
     axis = np.array(symmetry["axis"]) / np.linalg.norm(symmetry["axis"])
@@ -66,23 +67,25 @@ def head_and_tail_m(part_file):
 
 
 def in_picture(points, camera):
-    """Pixels of the colour picture that points (n x 3, in the frame of the depth image's camera [m]) fall on, and the metres that one of them is
-    wide there."""
+    """Where points (n x 3, in the frame of the depth image's camera [m]) fall in the colour picture, in pixels from its
+    corner, and a pixel's width there [m]."""
     x, y, z = points.T
     columns = camera["fx"] * x / z + camera["cx"]
     rows = camera["fy"] * y / z + camera["cy"]
-    return (np.column_stack([columns, rows]) + 0.5) / PIXELS - 0.5, PIXELS * z / camera["fx"]
+    return (np.column_stack([columns, rows]) + 0.5) / PIXELS, PIXELS * z / camera["fx"]
 
 
-def verdict(pose, ends, camera, pins=PINS):
-    """One of VERDICTS. pose: T_camera_model, 4 x 4; ends: as head_and_tail_m()."""
-    pixels, width_m = in_picture(ends @ pose[:3, :3].T + pose[:3, 3], camera)
+def verdict(T_camera_model, ends_m, camera, pins=PINS):
+    """One of VERDICTS, of each pose by itself. ends_m: as head_and_tail_m()."""
+    ends_camera_m = ends_m @ T_camera_model[:3, :3].T + T_camera_model[:3, 3]
+    pixels, width_m = in_picture(ends_camera_m, camera)
     seen = np.asarray(pins, float)
 
-    def farthest_m(order):
+    def miss_m(order):
+        """Of the pin that it misses least, the end that it misses most."""
         return (np.linalg.norm(seen[:, order] - pixels, axis=2) * width_m).max(axis=1).min()
 
-    right, turned = farthest_m([0, 1]), farthest_m([1, 0])
-    if min(right, turned) > NEAR_M:
+    right_m, turned_m = miss_m([0, 1]), miss_m([1, 0])
+    if min(right_m, turned_m) > NEAR_M:
         return "elsewhere"
-    return "right" if right <= turned else "end for end"
+    return "right" if right_m <= turned_m else "end for end"

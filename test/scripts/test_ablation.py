@@ -9,6 +9,8 @@ from unittest import mock
 PACKAGE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PACKAGE / "scripts"))
 
+from ablation_lib import __main__ as ablation_main
+from ablation_lib.__main__ import Ablation
 from ablation_lib.edited_core import Edit, edited
 from ablation_lib.rows import ROWS
 from ablation_lib.steps import STEPS
@@ -55,6 +57,18 @@ class Rows(unittest.TestCase):
         for row in ROWS[1:] + STEPS:
             with self.subTest(row=row.name):
                 self.assertTrue(row.settings or (row.edits and row.what))
+
+
+class RealFigures(unittest.TestCase):
+    def test_tell_what_passes_and_what_of_it_is_not_right(self):
+        ablation = Ablation.__new__(Ablation)
+        ablation.real = mock.Mock()
+        ablation.real.verdicts = lambda scene, *_: {"a": [3, 1, 2], "b": [4, 0, 0]}[scene]
+        ablation.images = {"as it is": {"pins": "a", "motors": "c"}, "turned": {"pins": "b"}}
+        ablation.draws = {"as it is": mock.Mock(), "turned": mock.Mock()}
+        with mock.patch.object(ablation_main, "reliable_poses", lambda *_: 9):
+            figures = ablation.real_figures("row")
+        self.assertEqual(figures, {"pins": [6, 4], "not_right": [3, 0], "others": 9})
 
 
 if __name__ == "__main__":

@@ -1,13 +1,17 @@
 """The judgement of poses by where a person sees the pins."""
 
+import os
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 PACKAGE = Path(__file__).resolve().parents[2]
+DATA = Path(os.environ.get("PPF_BIN_PICKING_DATA", PACKAGE / "../shared/data"))
+PICTURE = DATA / "real/pins/preview.jpg"
 sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
 
 from real_scan_lib import seen  # after the path that it is found on
@@ -65,11 +69,11 @@ class VerdictTest(unittest.TestCase):
         return pose
 
     def test_a_pixel_of_the_picture_is_two_of_the_image(self):
-        # the corner between the image's first four pixels is the middle of the picture's first
+        # the corner between the image's first four pixels is the middle of the picture's first pixel
         z = 0.5
         point = np.array([[(0.5 - CAMERA["cx"]) / 1800 * z, (0.5 - CAMERA["cy"]) / 1790 * z, z]])
         pixels, width_m = seen.in_picture(point, CAMERA)
-        np.testing.assert_allclose(pixels, [[0, 0]], atol=1e-9)
+        np.testing.assert_allclose(pixels, [[0.5, 0.5]], atol=1e-9)
         np.testing.assert_allclose(width_m, [2 * z / 1800])
 
     def test_a_pose_on_a_pin_is_right(self):
@@ -82,13 +86,37 @@ class VerdictTest(unittest.TestCase):
         turned[:3, :3] = self.pose[:3, :3] @ np.diag([-1, 1, -1])
         self.assertEqual(self.verdict(turned), "end for end")
 
+    def test_the_nearer_of_two_pins_that_lie_the_other_way_round_decides(self):
+        aside_m = 1.2 * seen.NEAR_M * np.array([0.8, -0.6, 0])
+        head, tail = self.pins[1]
+        self.pins[1] = np.array([tail, head])
+        self.pins[2] = np.array([head, tail]) + aside_m[:2] / self.width_m[0]
+        self.assertEqual(self.verdict(self.moved(0.3 * aside_m)), "end for end")
+        self.assertEqual(self.verdict(self.moved(0.7 * aside_m)), "right")
+
     def test_a_pose_beside_every_pin_is_elsewhere(self):
         self.assertEqual(self.verdict(self.moved([1.1 * seen.NEAR_M, 0, 0])), "elsewhere")
         across = self.pose.copy()
         across[:3, :3] = np.eye(3)
         self.assertEqual(self.verdict(across), "elsewhere")
 
-    def test_all_pins_that_are_seen_are_as_long(self):
+    @unittest.skipUnless(PICTURE.is_file(), f"{PICTURE} is missing: set PPF_BIN_PICKING_DATA")
+    def test_tails_are_darker_than_heads(self):
+        with Image.open(PICTURE) as picture:
+            blue = np.array(picture.convert("RGB"))[:, :, 2].astype(float)  # tails are brown
+
+        def brightness(head, tail, shares):
+            places = (head + np.outer(shares, tail - head)).astype(int)
+            return np.mean([blue[y - 1 : y + 2, x - 1 : x + 2].max() for x, y in places])
+
+        for head, tail in np.array(seen.PINS):
+            with self.subTest(head=head):
+                self.assertGreater(
+                    brightness(head, tail, np.linspace(0.05, 0.3, 12)),
+                    brightness(head, tail, np.linspace(0.75, 0.97, 12)),
+                )
+
+    def test_the_pins_are_equally_long_and_none_stands_there_twice(self):
         head, tail = np.array(seen.PINS).swapaxes(0, 1)
         long = np.linalg.norm(head - tail, axis=1)
         self.assertGreater(long.min(), 0.9 * np.median(long))

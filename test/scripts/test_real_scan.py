@@ -232,9 +232,18 @@ class MeasurementTest(unittest.TestCase):
         levels = np.full((4, 5), 5000, np.uint16)
         box = (np.zeros(3), np.ones(3))
         regions = {name: box for name in ("pins", "motors", "shoos")}
-        scan = scans.ImageScan(levels, {"depth_unit_m": 0.0001}, regions, np.eye(3))
-        rows, first = measurement.in_images(self.bench, {"one": scan, "two": scan})
-        self.assertEqual(rows, [["one", 0, 0, 0, 0, 7, 4], ["two", 0, 0, 0, 0, 7, 4]])
+        draws = {
+            name: scans.ImageScan(levels, {"depth_unit_m": 0.0001}, regions, turn)
+            for name, turn in (("one", np.eye(3)), ("two", scans.QUARTER_TURN))
+        }
+
+        def verdicts(scene, turn):
+            self.assertIn("pins", scene.name)
+            return [3, 1, 2] if turn[0, 0] == 1 else [5, 0, 4]
+
+        with mock.patch.object(self.bench, "verdicts", verdicts):
+            rows, first = measurement.in_images(self.bench, draws)
+        self.assertEqual(rows, [["one", 6, 3, 1, 2, 7, 4], ["two", 9, 5, 0, 4, 7, 4]])
         self.assertEqual(first.name, "image-0-pins")
 
     def test_clouds_are_searched_in_the_bin_and_everywhere(self):
