@@ -8,7 +8,7 @@ import yaml
 
 from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, reliable_poses, suspicious_poses
 from benchmark_lib.meshes import bounds_m
-from benchmark_lib.programs import Progress
+from benchmark_lib.programs import BenchmarkError, Progress
 
 from .seen import VERDICTS, head_and_tail_m, verdict
 
@@ -30,6 +30,9 @@ class RealScan(CopiedBench):
 
     def __init__(self, folder, data, configs):
         super().__init__(folder, configs)
+        for name in ("part.yaml", "camera.yaml", "bins.yaml"):
+            if not (data / name).is_file():
+                raise BenchmarkError(f"{data / name} is missing: name the data folder with --data.")
         mesh = yaml.safe_load((data / "part.yaml").read_text())["mesh"]
         copy_files(data, self.part_folder(REAL_PART), ("part.yaml", mesh))
         self.center_m = sum(bounds_m(data / "part.yaml")) / 2

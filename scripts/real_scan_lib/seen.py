@@ -1,5 +1,5 @@
 """Where a person sees the pins of the depth image: in the colour picture of the same view, in which a head is plain
-to the eye and most tails are darker. The depth alone tells head from tail on few pins."""
+to the eye and tails are darker. The depth alone tells head from tail on few pins."""
 
 import numpy as np
 import yaml

@@ -174,6 +174,8 @@ class MeasurementTest(unittest.TestCase):
         symmetries = "symmetries_continuous: [{axis: [1, 0, 0], point: [0, 0, 0]}]"
         (data / "part.yaml").write_text(f"unit: mm\nmesh: model.stl\n{symmetries}\n")
         (data / "camera.yaml").write_text("{fx: 1.0, fy: 1.0, cx: 0.0, cy: 0.0}\n")
+        (data / "bins.yaml").write_text("regions: {}\n")
+        self.data = data
         self.bench = measurement.RealScan(Path(folder.name) / "bench", data, {})
         self.bench.detect = self.detect
         suspicious = mock.patch.object(measurement, "suspicious_poses", lambda *_: 7)
@@ -212,10 +214,17 @@ class MeasurementTest(unittest.TestCase):
             self.assertEqual(words[0], "--cloud" if loose else "--depth")
             self.assertEqual("--roi" in words, not whole_cloud)
 
+    def test_a_folder_without_the_scan_is_refused_by_name(self):
+        for name in ("part.yaml", "camera.yaml", "bins.yaml"):
+            content = (self.data / name).read_text()
+            (self.data / name).unlink()
+            with self.assertRaisesRegex(BenchmarkError, f"{name} is missing: .* --data"):
+                measurement.RealScan(self.data / "bench", self.data, {})
+            (self.data / name).write_text(content)
+
     def test_verdicts_are_those_of_the_camera_that_is_not_turned(self):
         scene = self.scene("soon")
         self.bench.detect("default", scene)
-        turn = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
         asked = []
 
         def verdict(pose, ends, camera):
@@ -223,7 +232,7 @@ class MeasurementTest(unittest.TestCase):
             return "end for end"
 
         with mock.patch.object(measurement, "verdict", verdict):
-            self.assertEqual(self.bench.verdicts(scene, turn), [0, 2, 0])
+            self.assertEqual(self.bench.verdicts(scene, scans.QUARTER_TURN), [0, 2, 0])
         np.testing.assert_allclose(asked[0][0], [-0.02, 0.01, 0.5])
         np.testing.assert_allclose(asked[0][1], self.bench.ends_m)
         self.assertEqual(asked[0][2]["fx"], 1)
