@@ -6,14 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 namespace ppf_bin_picking
 {
 namespace
 {
-constexpr int kMaxTurns = 120;            // that are named as fractions of a turn
 constexpr std::size_t kSamples = 3000;    // for each turn of a revolution
 constexpr double kUnevenTurn_rad = 0.61;  // repeated, to check a revolution
+constexpr double kSameTurn_rad = 0.04;    // orientations nearer than this are one
 
 std::string numbers(const Eigen::Vector3d& values)
 {
@@ -50,6 +51,19 @@ std::string refusal(const std::string& turn, const SymmetryAxis& line, double de
        << " mm; correct axis, point or angle, or leave the symmetries out to have them found";
   return text.str();
 }
+bool has(const SymmetryGroup& group, const SymmetryAxis& line, double angle_rad)
+{
+  const Eigen::Quaternionf turned(
+      Eigen::AngleAxisf(static_cast<float>(angle_rad), line.axis.normalized().cast<float>()));
+  return group.rotationDistance(Eigen::Quaternionf::Identity(), turned) < kSameTurn_rad;
+}
+
+bool hasRevolution(const SymmetryGroup& group, const SymmetryAxis& line)
+{
+  for (int i = 1; i <= 10; ++i)
+    if (!has(group, line, i * kUnevenTurn_rad)) return false;
+  return true;
+}
 }  // namespace
 
 std::string symmetryProblem(const TriangleMesh& mesh, const SymmetryGroup& stated)
@@ -75,6 +89,18 @@ std::string symmetryProblem(const TriangleMesh& mesh, const SymmetryGroup& state
     if (deviation_m > allowed_m) return refusal("revolution", line, deviation_m, allowed_m);
   }
   return {};
+}
+
+std::string unstatedSymmetries(const SymmetryGroup& stated, const SymmetryGroup& found,
+                               double metres_per_unit)
+{
+  std::vector<DiscreteSymmetry> turns;
+  for (const DiscreteSymmetry& symmetry : found.generators())
+    if (!has(stated, symmetry.line, symmetry.angle_rad)) turns.push_back(symmetry);
+  std::vector<SymmetryAxis> axes;
+  for (const SymmetryAxis& line : found.revolutionAxes())
+    if (!hasRevolution(stated, line)) axes.push_back(line);
+  return turns.empty() && axes.empty() ? "" : describe({turns, axes}, metres_per_unit);
 }
 
 std::string describe(const SymmetryGroup& symmetries, double metres_per_unit)

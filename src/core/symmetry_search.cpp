@@ -14,7 +14,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr int kMaxTurns = 120;             // of a discrete symmetry, as part files allow
 constexpr std::size_t kSomeSamples = 300;  // to turn down at once what is no symmetry
 constexpr std::size_t kManySamples = 3000;
 constexpr double kLooseRel = 0.03;        // of an axis that is not refined yet

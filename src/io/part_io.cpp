@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr double kUnitTolerance = 1e-3;
-constexpr int kMaxTurns = 120;               // turns of a discrete symmetry until the part is back
 constexpr double kTurnTolerance_deg = 0.01;  // of the angle: 51.43 is a seventh
 
 Eigen::Vector3d vectorOf(const YamlMap& map, const std::string& key)
@@ -44,7 +43,11 @@ double readTurn(const YamlMap& map)
   for (int n = 2; n <= kMaxTurns; ++n)
   {
     const double k = std::round(angle_deg * n / 360.0);
-    if (std::abs(angle_deg - k * 360.0 / n) < kTurnTolerance_deg) return k * 2 * M_PI / n;
+    if (std::abs(angle_deg - k * 360.0 / n) >= kTurnTolerance_deg) continue;
+    if (std::fmod(k, n) == 0)
+      throw InputError(map.where() + ": angle_deg is " + plainDecimal(angle_deg) +
+                       ", which turns nothing: give 360 divided by the number of like positions");
+    return k * 2 * M_PI / n;
   }
   throw InputError(map.where() + ": angle_deg is " + plainDecimal(angle_deg) +
                    ", which no number of turns up to " + std::to_string(kMaxTurns) +
@@ -140,11 +143,19 @@ PartSymmetries symmetriesOf(const PartDescription& part, const TriangleMesh& mes
   try
   {
     PartSymmetries symmetries;
-    symmetries.group = part.states_symmetries ? part.symmetries() : findSymmetries(mesh);
+    const SymmetryGroup found = findSymmetries(mesh);
+    symmetries.group = part.states_symmetries ? part.symmetries() : found;
     if (part.states_symmetries)
     {
       const std::string problem = symmetryProblem(mesh, symmetries.group);
       if (!problem.empty()) throw InputError(part.source + ": " + problem);
+      const std::string unstated = unstatedSymmetries(symmetries.group, found, metres(part.unit));
+      if (!unstated.empty())
+        symmetries.warning = part.source + ": the mesh has symmetries that are not stated, " +
+                             unstated +
+                             ": poses that differ by them look the same, so that hardly any will "
+                             "be reliable; state them as well, or leave the symmetries out to "
+                             "have them found";
     }
     symmetries.summary =
         std::string("symmetries ") +

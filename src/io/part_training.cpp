@@ -9,11 +9,12 @@ TrainedPart trainPart(const PartDescription& part, const TriangleMesh& mesh,
 {
   const TriangleMesh simple = simplifiedMesh(mesh);
   const PartSymmetries symmetries = symmetriesOf(part, simple);
-  TrainedPart trained{PpfModel::train(simple, symmetries.group, parameters), {}};
+  TrainedPart trained{PpfModel::train(simple, symmetries.group, parameters), {}, {}};
   if (simple.triangles.size() < mesh.triangles.size())
     trained.notes.push_back("mesh simplified from " + std::to_string(mesh.triangles.size()) +
                             " to " + std::to_string(simple.triangles.size()) + " triangles");
   trained.notes.push_back(symmetries.summary);
+  if (!symmetries.warning.empty()) trained.warnings.push_back(symmetries.warning);
   return trained;
 }
 }  // namespace ppf_bin_picking

@@ -46,6 +46,8 @@ PpfModel modelOf(const PartDescription& part, const DetectorConfig& config)
         ppf_bin_picking::trainPart(part, loaded.mesh, config.model);
     for (const std::string& note : trained.notes)
       ROS_INFO_STREAM("Part '" << part.model_id << "': " << note);
+    for (const std::string& warning : trained.warnings)
+      ROS_WARN_STREAM(warning);
     return std::move(trained.model);
   }
   ppf_bin_picking::ModelFile file = ppf_bin_picking::loadModel(part.model_file);

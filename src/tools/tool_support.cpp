@@ -124,6 +124,8 @@ PpfModel trainedModel(const ToolPart& part)
        << model.data().points.size() << " points, " << model.data().entries.size() << " pairs";
   for (const std::string& note : trained.notes)
     report(note);
+  for (const std::string& warning : trained.warnings)
+    report("warning: " + warning);
   report(line.str());
   return std::move(trained.model);
 }

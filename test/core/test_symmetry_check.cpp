@@ -39,6 +39,32 @@ TEST(StatedSymmetries, areRefusedByNameIfTheMeshHasThemNot)
   EXPECT_NE(symmetryProblem(box, {{}, {z}}).find("the revolution about"), std::string::npos);
 }
 
+TEST(UnstatedSymmetries, areThoseThatTheStatedOnesDoNotBringAlong)
+{
+  const auto about = [](const Eigen::Vector3d& axis, double angle_rad) {
+    return DiscreteSymmetry{{axis, Eigen::Vector3d::Zero()}, angle_rad};
+  };
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
+  const SymmetryGroup nut({about(z, M_PI / 3), about(x, M_PI)}, {});
+  EXPECT_EQ(unstatedSymmetries(nut, nut, 1), "");
+  EXPECT_EQ(unstatedSymmetries({}, nut, 1), describe(nut, 1));
+  EXPECT_EQ(unstatedSymmetries(SymmetryGroup({about(z, M_PI / 3)}, {}), nut, 1),
+            "1/2 turn about [1, 0, 0] through [0, 0, 0]");
+  EXPECT_EQ(unstatedSymmetries(SymmetryGroup({about(z, 2 * M_PI / 3), about(z, M_PI),
+                                              about({0.5, std::sqrt(0.75), 0}, M_PI)},
+                                             {}),
+                               nut, 1),
+            "");  // other generators of the same turns
+  const SymmetryGroup shaft({about(x, M_PI)}, {SymmetryAxis()});
+  EXPECT_EQ(unstatedSymmetries(shaft, shaft, 1), "");
+  EXPECT_EQ(unstatedSymmetries(SymmetryGroup({about(z, M_PI / 2), about(x, M_PI)}, {}), shaft, 1),
+            "every turn about [0, 0, 1] through [0, 0, 0]");
+  const SymmetryGroup ball({}, {SymmetryAxis(), {x, Eigen::Vector3d::Zero()}});
+  EXPECT_EQ(unstatedSymmetries(ball, ball, 1), "");
+  EXPECT_EQ(unstatedSymmetries(ball, shaft, 1), "");
+  EXPECT_NE(unstatedSymmetries(shaft, ball, 1), "");
+}
+
 TEST(Describe, namesEveryGenerator)
 {
   EXPECT_EQ(describe({}, 1), "none");

@@ -84,6 +84,8 @@ TEST_F(PartFile, withoutSymmetriesHasThoseOfItsMesh)
   const PartSymmetries none = symmetriesOf(load("{unit: mm, symmetries_discrete: []}"), box);
   EXPECT_EQ(none.group.motions().size(), 1U);
   expectHolds(none.summary, "symmetries stated, and confirmed by the mesh: none");
+  EXPECT_EQ(found.warning, "");
+  expectHolds(none.warning, "the mesh has symmetries that are not stated, 1/2 turn about ");
 }
 
 TEST_F(PartFile, isRefusedIfItsMeshHasNotItsSymmetries)
@@ -108,6 +110,10 @@ TEST_F(PartFile, namesWhatIsWrong)
     expectHolds(
         error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: " + angle + "}]\n"),
         "symmetries_discrete[0]: angle_deg is " + angle + ", which no number of turns");
+  for (const std::string angle : {"0", "360", "-720"})
+    expectHolds(
+        error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: " + angle + "}]\n"),
+        "symmetries_discrete[0]: angle_deg is " + angle + ", which turns nothing");
   expectHolds(error("unit: mm\nsymmetries_discrete: [{axis: [0, 0, 1], angle_deg: 180}, "
                     "{axis: [1, 0, 0.1], angle_deg: 90}]\n"),
               "the discrete symmetries have no end");

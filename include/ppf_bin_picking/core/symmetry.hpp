@@ -15,6 +15,9 @@ struct SymmetryAxis
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< A point on the line [m].
 };
 
+/// Turns of a discrete symmetry until the part is back, at most.
+constexpr int kMaxTurns = 120;
+
 /// One generator of the discrete symmetries.
 struct DiscreteSymmetry
 {

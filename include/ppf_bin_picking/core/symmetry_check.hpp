@@ -18,6 +18,15 @@ constexpr double kStatedSymmetryRel = 0.02;
 /// @throw std::invalid_argument if the mesh has no surface.
 std::string symmetryProblem(const TriangleMesh& mesh, const SymmetryGroup& stated);
 
+/// Compares the symmetries that are stated of a part with those that its mesh has. Poses that
+/// differ by a symmetry which is not stated are rivals of each other, so that none of them is
+/// reliable.
+/// @param stated  Without symmetryProblem().
+/// @param found   findSymmetries() of the mesh.
+/// @return The found generators that `stated` has not, as by describe(); empty if it has all.
+std::string unstatedSymmetries(const SymmetryGroup& stated, const SymmetryGroup& found,
+                               double metres_per_unit);
+
 /// `none`, or generators in words: `1/6 turn about [0, 0, 1] through [0, 0, 0]`.
 /// @param metres_per_unit  Of the points named.
 std::string describe(const SymmetryGroup& symmetries, double metres_per_unit);

@@ -55,6 +55,7 @@ struct PartSymmetries
 {
   SymmetryGroup group;
   std::string summary;  ///< Where they are from and what they are, points in the mesh's unit.
+  std::string warning;  ///< What the mesh has beside those stated, and what follows; empty: none.
 };
 
 /// @param mesh  Of the part [m].

@@ -18,6 +18,7 @@ struct TrainedPart
   /// One line each: what was left of the mesh, if it was simplified; where the symmetries are from
   /// and what they are.
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< What will keep the part from being picked.
 };
 
 /// Trains the model of a part from its simplified mesh, see simplifiedMesh(). Its symmetries are
