@@ -58,7 +58,7 @@ std::vector<std::string> DetectorConfig::problems() const
   check.within("icp_iterations", icp_iterations, 0, 100);
   check.within("depth_gate_rel", depth_gate_rel, kTiny, kHuge);
   check.within("normal_gate_rad", normal_gate_rad, kTiny, M_PI_2);
-  check.within("min_score", min_score, 0.0, 1.0);
+  check.within("min_score", min_score, kLeastScore, 1.0);
   check.within("max_slide_share", max_slide_share, 0.0, 1.0);
   check.within("firm_hold", firm_hold, 0.0, kHuge);
   check.within("max_outline_broken", max_outline_broken, 0.0, 1.0);

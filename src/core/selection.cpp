@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/core/selection.hpp"
 
+#include "ppf_bin_picking/core/detector_config.hpp"
+
 #include <cstdint>
 #include <queue>
 
@@ -7,8 +9,6 @@ namespace ppf_bin_picking
 {
 namespace
 {
-constexpr double kLeastScore = 0.4;  // poses scoring less are not worth showing
-
 struct Entry
 {
   double balance;

@@ -190,7 +190,7 @@ TEST(ReadServerParams, agreesWithTheReaderOfFiles)
 {
   DetectorConfig config;
   config.model.step_rel = 0.0375;
-  config.min_score = 1.0 / 3.0;
+  config.min_score = 2.0 / 3.0;
   config.min_visible_share = 0.00001;
   config.threads = 2;
   config.clustering = ppf_bin_picking::Clustering::kGreedy;

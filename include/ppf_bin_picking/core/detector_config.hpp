@@ -26,6 +26,9 @@ struct ModelParameters
   }
 };
 
+/// A pose that scores less is not worth showing.
+constexpr double kLeastScore = 0.4;
+
 /// Everything the detector can be tuned with. `_rel` is relative to the part's diameter, `_share` a
 /// share in [0, 1], `_px` pixels of the working image, `_rad` radians, `_s` seconds.
 struct DetectorConfig
@@ -76,10 +79,9 @@ struct DetectorConfig
   bool climb = true;  ///< Poses that the cloud says little for climb, see evidence_climb.hpp.
   double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
   double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
-  double min_score = 0.4;          ///< Poses scoring less are not reliable. [0, 1].
+  double min_score = kLeastScore;  ///< Poses scoring less are not reliable. [kLeastScore, 1].
   double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].
-
-  int min_confirmed_px = 50;  ///< Poses confirmed by fewer pixels neither. >= 1.
+  int min_confirmed_px = 50;       ///< Poses confirmed by fewer pixels neither. >= 1.
 
   // Running
   int threads = 0;          ///< 0: one per core. >= 0.
