@@ -18,7 +18,7 @@ class Term:
     text: str  # the same in words
     sign: int  # of the weight: what speaks for a pose must not be turned against it by chance
     code: str  # the same in C++
-    reason: str  # of the pose's unreliability where this term is to blame
+    doubt: str  # its name in C++, see ReliabilityTerm
 
 
 def clamp(value, low, high):
@@ -37,7 +37,7 @@ TERMS = (
         "logit of the score, within 0.2 and 0.98",
         1,
         "std::log(score / (1 - score))",
-        "kLowScore",
+        "kScore",
     ),
     Term(
         "margin",
@@ -45,7 +45,7 @@ TERMS = (
         "lead over the best other pose there, within -0.2 and 0.5",
         1,
         "std::clamp(pose.margin, -0.2, 0.5)",
-        "kRunnerUp",
+        "kMargin",
     ),
     Term(
         "hold",
@@ -53,7 +53,7 @@ TERMS = (
         "log10 of the hold, at least 0.001",
         1,
         "std::log10(std::max(pose.hold, 0.001))",
-        "kSlippage",
+        "kHold",
     ),
     Term(
         "slide_share",
@@ -61,7 +61,7 @@ TERMS = (
         "of the outline that would stop the worst slide, the broken share",
         -1,
         "pose.slide_share",
-        "kSlippage",
+        "kSlideShare",
     ),
     Term(
         "spread",
@@ -77,7 +77,7 @@ TERMS = (
         "share of the expected surface that the cloud lies behind, beyond what is usual in the scene (`usual.py`)",
         -1,
         "std::max(pose.looked_through - pose.usual_looked_through, 0.0)",
-        "kLowScore",
+        "kLookedThrough",
     ),
     Term(
         "goes_on",
@@ -85,7 +85,7 @@ TERMS = (
         "share of its edges in sight beyond which the surface goes on, held poses' surfaces aside",
         -1,
         "pose.goes_on",
-        "kSlippage",
+        "kGoesOn",
     ),
     Term(
         "claimed",
@@ -93,7 +93,7 @@ TERMS = (
         "share of the expected surface that better poses explain",
         -1,
         "pose.claimed",
-        "kOverlap",
+        "kClaimed",
     ),
     Term(
         "confirmed_px",
@@ -101,7 +101,7 @@ TERMS = (
         "log10 of the pixels that confirm it, at least 30",
         1,
         "std::log10(std::max(pose.confirmed_px, 30))",
-        "kLowScore",
+        "kConfirmed",
     ),
     Term(
         "visible_fraction",
@@ -109,7 +109,7 @@ TERMS = (
         "share of its surface that is in sight",
         1,
         "std::min(pose.visible_fraction, 1.0)",
-        "kLowScore",
+        "kVisible",
     ),
 )
 SIGNS = tuple(term.sign for term in TERMS)
@@ -132,7 +132,7 @@ def code_of(fitted):
     (region, region_means), (whole, whole_means) = fitted
     columns = (region.weights, region_means, whole.weights, whole_means)
     rows = [
-        f"      {{{term.code}, UnreliableReason::{term.reason}, {{{a:.3f}, {b:.3f}}}, {{{c:.3f}, {d:.3f}}}}},\n"
+        f"      {{{term.code}, ReliabilityTerm::{term.doubt}, {{{a:.3f}, {b:.3f}}}, {{{c:.3f}, {d:.3f}}}}},\n"
         for term, a, b, c, d in zip(TERMS, *columns)
     ]
     return (

@@ -19,7 +19,6 @@ add_library(
   ${core_dir}/canonical_pose.cpp
   ${core_dir}/dbscan.cpp
   ${core_dir}/detection_message.cpp
-  ${core_dir}/detection_result.cpp
   ${core_dir}/detector.cpp
   ${core_dir}/detector_config.cpp
   ${core_dir}/draw_kernel.cpp
@@ -37,6 +36,7 @@ add_library(
   ${core_dir}/pair_kernel.cpp
   ${core_dir}/parallel.cpp
   ${core_dir}/pca.cpp
+  ${core_dir}/percent.cpp
   ${core_dir}/points_image.cpp
   ${core_dir}/pose_clustering.cpp
   ${core_dir}/pose_covariance.cpp
@@ -60,6 +60,7 @@ add_library(
   ${core_dir}/symmetry_axes.cpp
   ${core_dir}/symmetry_check.cpp
   ${core_dir}/symmetry_search.cpp
+  ${core_dir}/unreliable_reason.cpp
   ${core_dir}/verification.cpp
   ${core_dir}/viewpoints.cpp
   ${core_dir}/vote_kernel.cpp)

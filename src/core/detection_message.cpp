@@ -1,7 +1,7 @@
 #include "ppf_bin_picking/core/detection_message.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -12,37 +12,48 @@ namespace ppf_bin_picking
 namespace
 {
 constexpr double kAnotherUnit = 3;  // times as far away: no empty bin is so high
+constexpr std::array<const char*, 3> kDirections = {
+    " m along the camera's x axis", " m along the camera's y axis", " m before the camera"};
 }  // namespace
 
 std::string emptyRegionMessage(const PointCloud& cloud_camera, const RegionOfInterest& roi)
 {
-  constexpr float kFar = std::numeric_limits<float>::max();
-  float nearest = kFar, farthest = 0;
+  Eigen::AlignedBox3d cloud, region;
   for (const Eigen::Vector3f& point : cloud_camera.points)
-  {
-    if (!measured(point)) continue;
-    nearest = std::min(nearest, point.z());
-    farthest = std::max(farthest, point.z());
-  }
-  double region_nearest = kFar, region_farthest = -kFar;
+    if (measured(point)) cloud.extend(point.cast<double>());
   for (int corner = 0; corner < 8; ++corner)
   {
     Eigen::Vector3d p = roi.min;
     for (int axis = 0; axis < 3; ++axis)
       if ((corner >> axis) % 2 != 0) p[axis] = roi.max[axis];
-    const double z = (roi.T_cloud_box * p).z();
-    region_nearest = std::min(region_nearest, z);
-    region_farthest = std::max(region_farthest, z);
+    region.extend(roi.T_cloud_box * p);
   }
+  int told = 2;
+  for (const int axis : {1, 0, 2})
+    if (region.max()[axis] < cloud.min()[axis] || region.min()[axis] > cloud.max()[axis])
+      told = axis;
   std::ostringstream text;
   text.precision(3);
   text << "no measured point in the region of interest: the bin is empty, or the region is "
-       << "misplaced (the cloud lies " << nearest << " to " << farthest
-       << " m before the camera, the region " << region_nearest << " to " << region_farthest
-       << " m)";
-  if (nearest > kAnotherUnit * region_farthest || kAnotherUnit * farthest < region_nearest)
+       << "misplaced (the cloud lies " << cloud.min()[told] << " to " << cloud.max()[told]
+       << kDirections[static_cast<std::size_t>(told)] << ", the region " << region.min()[told]
+       << " to " << region.max()[told] << " m)";
+  if (cloud.min().z() > kAnotherUnit * region.max().z() ||
+      kAnotherUnit * cloud.max().z() < region.min().z())
     text << ": check its frame and the cloud's unit";
   return text.str();
+}
+
+std::size_t reliablePoses(const DetectionResult& result)
+{
+  return static_cast<std::size_t>(std::count_if(result.poses.begin(), result.poses.end(),
+                                                [](const DetectedPose& pose)
+                                                { return pose.reliable; }));
+}
+
+std::string reliablePosesInWords(std::size_t count)
+{
+  return std::to_string(count) + (count == 1 ? " reliable pose" : " reliable poses");
 }
 
 std::string noReliablePoseMessage(const DetectionResult& result)

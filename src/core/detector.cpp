@@ -83,22 +83,21 @@ RangeImageOptions imageOptions(const DetectorConfig& config,
 
 void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
 {
-  const auto reliable = std::count_if(result.poses.begin(), result.poses.end(),
-                                      [](const DetectedPose& pose) { return pose.reliable; });
+  const std::size_t reliable = reliablePoses(result);
   std::ostringstream text;
   if (cut_short)
   {
     result.status = DetectionStatus::kTimeLimit;
     if (time_limit_s > 0)
-      text << "the time limit of " << time_limit_s << " s ended the search with " << reliable
-           << " reliable poses: raise time_limit_s to see all";
+      text << "the time limit of " << time_limit_s << " s ended the search with "
+           << reliablePosesInWords(reliable) << ": raise time_limit_s to see all";
     else
-      text << "the search was stopped with " << reliable << " reliable poses";
+      text << "the search was stopped with " << reliablePosesInWords(reliable);
   }
   else if (reliable > 0)
   {
     result.status = DetectionStatus::kOk;
-    text << reliable << " reliable poses";
+    text << reliablePosesInWords(reliable);
   }
   else
   {

@@ -12,6 +12,7 @@
 #include "ppf_bin_picking/core/reliability.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace ppf_bin_picking
 {
@@ -27,22 +28,6 @@ OrientedBox boxOfPart(const PpfModel& model, const Eigen::Isometry3d& T_cloud_mo
   box.size = extent.sizes().cast<double>();
   box.T_cloud_box = T_cloud_model * Eigen::Translation3d(extent.center().cast<double>());
   return box;
-}
-
-MismatchingRegion regionOf(const DetectedPose& pose, const PoseVerdict& verdict,
-                           const ClusterShare& share, const PpfModel& model)
-{
-  MismatchingRegion region;
-  region.model = pose.model;
-  region.reason = verdict.reason;
-  region.box = verdict.reason == UnreliableReason::kSpread ? share.box
-                                                           : boxOfPart(model, pose.T_cloud_model);
-  region.T_cloud_best = pose.T_cloud_model;
-  region.score = pose.score;
-  region.reliability = pose.reliability;
-  region.hypotheses = share.hypotheses;
-  region.detail = verdict.detail;
-  return region;
 }
 
 /// Writes where the part is: the canonical pose of its orbit.
@@ -223,16 +208,6 @@ std::vector<ClusterShare> sharesOf(const std::vector<const PpfModel*>& models,
   return shareClusters(result.distribution, centers, clusters);
 }
 
-void sortResult(DetectionResult& result)
-{
-  std::stable_sort(result.poses.begin(), result.poses.end(),
-                   [](const DetectedPose& a, const DetectedPose& b)
-                   { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
-  std::stable_sort(result.regions.begin(), result.regions.end(),
-                   [](const MismatchingRegion& a, const MismatchingRegion& b)
-                   { return a.score > b.score; });
-}
-
 /// Mismatching clusters in which no pose stands, each with its best candidate.
 void addDesertedClusters(const std::vector<const PpfModel*>& models, const DetectorConfig& config,
                          const std::vector<Candidate>& candidates,
@@ -256,10 +231,39 @@ void addDesertedClusters(const std::vector<const PpfModel*>& models, const Detec
     const DetectedPose pose = poseOfCandidate(*best, model, best->evidence.confirmed_weight, 0.0);
     const ClusterShare whole = {cluster.box, cluster.hypotheses};
     result.regions.push_back(
-        regionOf(pose, verdictOf(pose, true, whole, model, config), whole, model));
+        regionOf(pose, model, verdictOf(pose, true, whole, model, config), whole));
   }
 }
 }  // namespace
+
+MismatchingRegion regionOf(const DetectedPose& pose, const PpfModel& model,
+                           const PoseVerdict& verdict, const ClusterShare& share)
+{
+  MismatchingRegion region;
+  region.model = pose.model;
+  region.reason = verdict.reason;
+  region.box = verdict.reason == UnreliableReason::kSpread ? share.box
+                                                           : boxOfPart(model, pose.T_cloud_model);
+  region.T_cloud_best = pose.T_cloud_model;
+  region.score = pose.score;
+  region.reliability = pose.reliability;
+  region.hypotheses = share.hypotheses;
+  region.detail = verdict.detail;
+  return region;
+}
+
+void sortResult(DetectionResult& result)
+{
+  std::stable_sort(result.poses.begin(), result.poses.end(),
+                   [](const DetectedPose& a, const DetectedPose& b)
+                   {
+                     return std::make_tuple(a.reliable, a.reliability, a.score) >
+                            std::make_tuple(b.reliable, b.reliability, b.score);
+                   });
+  std::stable_sort(result.regions.begin(), result.regions.end(),
+                   [](const MismatchingRegion& a, const MismatchingRegion& b)
+                   { return a.score > b.score; });
+}
 
 std::vector<SelectedPose> selectCandidates(const std::vector<Candidate>& candidates,
                                            std::size_t pixels)
@@ -289,7 +293,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     pose.reason = verdicts[i].reason;
     pose.reliable = pose.reason == UnreliableReason::kNone;
     if (!pose.reliable)
-      result.regions.push_back(regionOf(pose, verdicts[i], shares[i], *models[pose.model]));
+      result.regions.push_back(regionOf(pose, *models[pose.model], verdicts[i], shares[i]));
   }
   settle(image, models, config, result.poses);
   addCovariances(image, models, config, result.poses);

@@ -20,7 +20,7 @@ struct Weight
 struct Term
 {
   double value;  ///< Of the pose.
-  UnreliableReason reason;
+  ReliabilityTerm name;
   Weight in_region;
   Weight in_whole_cloud;
 };
@@ -37,29 +37,29 @@ std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), UnreliableReason::kLowScore, {0.138, 2.585}, {0.755, 2.832}},
+      {std::log(score / (1 - score)), ReliabilityTerm::kScore, {0.138, 2.585}, {0.755, 2.832}},
       {std::clamp(pose.margin, -0.2, 0.5),
-       UnreliableReason::kRunnerUp,
+       ReliabilityTerm::kMargin,
        {5.759, 0.456},
        {6.337, 0.459}},
       {std::log10(std::max(pose.hold, 0.001)),
-       UnreliableReason::kSlippage,
+       ReliabilityTerm::kHold,
        {2.532, -1.096},
        {2.458, -1.076}},
-      {pose.slide_share, UnreliableReason::kSlippage, {-0.694, 0.140}, {-2.045, 0.077}},
-      {std::min(pose.spread, 2.0), UnreliableReason::kSpread, {-0.060, 0.186}, {-2.752, 0.192}},
+      {pose.slide_share, ReliabilityTerm::kSlideShare, {-0.694, 0.140}, {-2.045, 0.077}},
+      {std::min(pose.spread, 2.0), ReliabilityTerm::kSpread, {-0.060, 0.186}, {-2.752, 0.192}},
       {std::max(pose.looked_through - pose.usual_looked_through, 0.0),
-       UnreliableReason::kLowScore,
+       ReliabilityTerm::kLookedThrough,
        {-25.853, 0.006},
        {-15.509, 0.004}},
-      {pose.goes_on, UnreliableReason::kSlippage, {-5.004, 0.035}, {-5.890, 0.019}},
-      {pose.claimed, UnreliableReason::kOverlap, {-14.843, 0.001}, {-12.372, 0.001}},
+      {pose.goes_on, ReliabilityTerm::kGoesOn, {-5.004, 0.035}, {-5.890, 0.019}},
+      {pose.claimed, ReliabilityTerm::kClaimed, {-14.843, 0.001}, {-12.372, 0.001}},
       {std::log10(std::max(pose.confirmed_px, 30)),
-       UnreliableReason::kLowScore,
+       ReliabilityTerm::kConfirmed,
        {1.330, 3.143},
        {1.304, 2.971}},
       {std::min(pose.visible_fraction, 1.0),
-       UnreliableReason::kLowScore,
+       ReliabilityTerm::kVisible,
        {1.088, 0.798},
        {1.709, 0.809}},
   }};
@@ -78,7 +78,7 @@ Reliability assessReliability(const DetectedPose& pose, bool whole_cloud)
     const double against = weight.per_unit * (term.value - weight.of_right_ones);
     if (against >= worst) continue;
     worst = against;
-    reliability.main_doubt = term.reason;
+    reliability.main_doubt = term.name;
   }
   reliability.probability = 1 / (1 + std::exp(-sum));
   return reliability;

@@ -2,8 +2,9 @@
 
 #include "ppf_bin_picking/core/detection_message.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
-#include "ppf_bin_picking/core/pca.hpp"
+#include "ppf_bin_picking/core/percent.hpp"
 #include "ppf_bin_picking/core/pinhole_camera.hpp"
+#include "ppf_bin_picking/core/pose_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,15 @@ namespace ppf_bin_picking_ros
 {
 namespace
 {
+using ppf_bin_picking::ClusterShare;
 using ppf_bin_picking::DetectedPose;
 using ppf_bin_picking::DetectionResult;
 using ppf_bin_picking::DetectionStatus;
 using ppf_bin_picking::MismatchingRegion;
+using ppf_bin_picking::percent;
 using ppf_bin_picking::PinholeCamera;
 using ppf_bin_picking::PpfModel;
+using ppf_bin_picking::reliablePosesInWords;
 using ppf_bin_picking::RenderedPart;
 using ppf_bin_picking::UnreliableReason;
 
@@ -86,23 +90,18 @@ std::ptrdiff_t pixelsOfBoth(const RenderedPart& a, const RenderedPart& b, const 
   return both;
 }
 
-MismatchingRegion regionOf(const DetectedPose& pose, const PpfModel& model,
-                           const DetectionResult& all, const double shared)
+/// The region of a pose that a better one of another detection turns down.
+MismatchingRegion overlapOf(const DetectedPose& pose, const PpfModel& model,
+                            const DetectionResult& all, const double shared)
 {
-  std::vector<Eigen::Vector3f> vertices;
-  for (const Eigen::Vector3f& vertex : model.data().mesh.vertices)
-    vertices.emplace_back((pose.T_cloud_model * vertex.cast<double>()).cast<float>());
-  MismatchingRegion region;
-  region.model = pose.model;
-  region.reason = pose.reason;
-  region.box = ppf_bin_picking::principalBox(vertices);
-  region.T_cloud_best = pose.T_cloud_model;
-  region.score = pose.score;
+  ClusterShare share;
   if (pose.cluster >= 0)
-    region.hypotheses = all.clusters[static_cast<std::size_t>(pose.cluster)].hypotheses;
-  region.detail = "a better pose of a part with other settings explains " +
-                  std::to_string(std::lround(100 * shared)) + " % of the same surface";
-  return region;
+    share.hypotheses = all.clusters[static_cast<std::size_t>(pose.cluster)].hypotheses;
+  return regionOf(
+      pose, model,
+      {UnreliableReason::kOverlap, "a better pose of a part with other settings explains " +
+                                       percent(shared) + " of the same surface"},
+      share);
 }
 
 /// @param all  Its poses are sorted.
@@ -123,35 +122,25 @@ void resolveOverlaps(DetectionResult& all, const std::vector<const PpfModel*>& m
       if (shared <= kMaxSharedSurface) continue;
       pose.reliable = false;
       pose.reason = UnreliableReason::kOverlap;
-      all.regions.push_back(regionOf(pose, *models[pose.model], all, shared));
+      all.regions.push_back(overlapOf(pose, *models[pose.model], all, shared));
     }
   }
-}
-
-void sort(DetectionResult& all)
-{
-  std::stable_sort(all.poses.begin(), all.poses.end(),
-                   [](const DetectedPose& a, const DetectedPose& b)
-                   { return a.reliable != b.reliable ? a.reliable : a.score > b.score; });
-  std::stable_sort(all.regions.begin(), all.regions.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
 }
 
 /// All detections looked into the same region. Where none found anything, each says the same.
 void setStatus(DetectionResult& all)
 {
   if (all.status == DetectionStatus::kRoiEmpty) return;
-  const std::string reliable = std::to_string(std::count_if(
-      all.poses.begin(), all.poses.end(), [](const DetectedPose& pose) { return pose.reliable; }));
+  const std::size_t reliable = reliablePoses(all);
   if (all.status == DetectionStatus::kTimeLimit)
   {
-    all.message = "the time limit ended the search with " + reliable +
-                  " reliable poses: raise time_limit_s to see all";
+    all.message = "the time limit ended the search with " + reliablePosesInWords(reliable) +
+                  ": raise time_limit_s to see all";
     return;
   }
-  all.status = reliable == "0" ? DetectionStatus::kNoPickablePose : DetectionStatus::kOk;
-  if (reliable != "0")
-    all.message = reliable + " reliable poses";
+  all.status = reliable == 0 ? DetectionStatus::kNoPickablePose : DetectionStatus::kOk;
+  if (reliable > 0)
+    all.message = reliablePosesInWords(reliable);
   else if (!all.poses.empty())
     all.message = noReliablePoseMessage(all);
 }
@@ -189,9 +178,9 @@ DetectionResult merged(std::vector<DetectionResult> results,
       detection_of_model[pose.model] = k;
     add(all, std::move(results[k]));
   }
-  sort(all);
+  sortResult(all);
   resolveOverlaps(all, models, detection_of_model);
-  sort(all);
+  sortResult(all);
   setStatus(all);
   return all;
 }

@@ -36,6 +36,15 @@ TEST(NoReliablePoseMessage, countsTheReasonsAndTellsOfTheBestPose)
             "one: it slides");
 }
 
+TEST(ReliablePoses, areCountedAndPutInWords)
+{
+  DetectionResult result = resultWith({UnreliableReason::kRunnerUp, UnreliableReason::kNone});
+  result.poses[1].reliable = true;
+  EXPECT_EQ(reliablePoses(result), 1U);
+  EXPECT_EQ(reliablePosesInWords(1), "1 reliable pose");
+  EXPECT_EQ(reliablePosesInWords(2), "2 reliable poses");
+}
+
 /// A region between two depths [m], in a frame turned upside down.
 RegionOfInterest regionAt(double near_m, double far_m)
 {
@@ -57,6 +66,14 @@ TEST(EmptyRegionMessage, tellsHowFarAwayCloudAndRegionAreAndAsksForTheUnitIfOneI
             "no measured point in the region of interest: the bin is empty, or the region is "
             "misplaced (the cloud lies 0.5 to 0.75 m before the camera, the region 0.25 to 0.625 "
             "m)");
+  RegionOfInterest beside = regionAt(0.25, 0.625);
+  beside.min.x() += 2;
+  beside.max.x() += 2;
+  EXPECT_NE(
+      emptyRegionMessage(cloud, beside)
+          .find("(the cloud lies 0 to 1 m along the camera's x axis, the region 1.9 to 2.1 m)"),
+      std::string::npos)
+      << emptyRegionMessage(cloud, beside);
   for (const double factor : {0.001, 1000.0})
   {
     const std::string message = emptyRegionMessage(cloud, regionAt(0.25 * factor, 0.625 * factor));

@@ -72,7 +72,7 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
        {
          pose.reliability = 0.2;
          pose.claimed = 0.5;
-         pose.main_doubt = UnreliableReason::kOverlap;
+         pose.main_doubt = ReliabilityTerm::kClaimed;
        },
        UnreliableReason::kOverlap, "min_reliability"}};
   for (const Case& one : cases)
@@ -82,6 +82,52 @@ TEST_F(VerdictTest, namesTheGateThatAPoseFails)
     EXPECT_EQ(failed.reason, one.reason);
     EXPECT_NE(failed.detail.find(one.word), std::string::npos) << failed.detail;
   }
+}
+
+TEST_F(VerdictTest, tellsTheTermThatPulledTheReliabilityDown)
+{
+  const auto told = [this](ReliabilityTerm term)
+  {
+    return verdict(
+               [&](DetectedPose& pose)
+               {
+                 pose.reliability = 0.8;
+                 pose.main_doubt = term;
+                 pose.score = 0.51;
+                 pose.margin = 0.26;
+                 pose.looked_through = 0.12;
+                 pose.goes_on = 0.13;
+                 pose.slide_share = 0.54;
+                 pose.visible_fraction = 0.25;
+                 pose.confirmed_px = 66;
+               })
+        .detail;
+  };
+  const std::string before = "right with a probability of 80 % only (min_reliability 90 %): ";
+  EXPECT_EQ(told(ReliabilityTerm::kScore),
+            before + "the cloud confirms only 51 % of what it should see of it");
+  EXPECT_EQ(told(ReliabilityTerm::kMargin),
+            before + "another pose explains the same points with 26 % less evidence");
+  EXPECT_EQ(told(ReliabilityTerm::kLookedThrough),
+            before + "the cloud lies behind 12 % of the surface");
+  EXPECT_EQ(told(ReliabilityTerm::kGoesOn),
+            before + "the measured surface goes on at 13 % of its edges");
+  EXPECT_EQ(told(ReliabilityTerm::kSlideShare),
+            before +
+                "the measured surface goes on beyond 54 % of the outline that should stop a "
+                "slide");
+  EXPECT_EQ(told(ReliabilityTerm::kVisible), before + "only 25 % of it is not hidden");
+  EXPECT_EQ(told(ReliabilityTerm::kConfirmed), before + "only 66 pixels confirm it");
+}
+
+TEST_F(VerdictTest, showsThatAShareMissesItsLimit)
+{
+  EXPECT_NE(verdict([](DetectedPose& pose) { pose.reliability = 0.897; })
+                .detail.find("probability of 89.7 % only (min_reliability 90.0 %)"),
+            std::string::npos);
+  EXPECT_NE(verdict([](DetectedPose& pose) { pose.margin = 0.047; })
+                .detail.find("4.7 % less evidence (min_margin 5.0 %)"),
+            std::string::npos);
 }
 
 TEST_F(VerdictTest, trustsAFirmlyHeldPoseWhateverItsOutline)

@@ -44,7 +44,7 @@ protected:
     return probability(pose);
   }
 
-  static UnreliableReason main_doubt(const std::function<void(DetectedPose&)>& change)
+  static ReliabilityTerm main_doubt(const std::function<void(DetectedPose&)>& change)
   {
     DetectedPose pose = ordinaryPose();
     change(pose);
@@ -100,16 +100,28 @@ TEST_P(ReliabilityTest, staysFiniteForExtremeValues)
 
 TEST_P(ReliabilityTest, namesWhatPulledItDown)
 {
-  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.margin = 0; }), UnreliableReason::kRunnerUp);
-  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.hold = 0.002; }), UnreliableReason::kSlippage);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.margin = 0; }), ReliabilityTerm::kMargin);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.hold = 0.002; }), ReliabilityTerm::kHold);
   // within a region the fit gives the spread next to no weight: the other terms say what it does
   if (GetParam())
   {
-    EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.spread = 1.5; }), UnreliableReason::kSpread);
+    EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.spread = 1.5; }), ReliabilityTerm::kSpread);
   }
-  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.claimed = 0.3; }), UnreliableReason::kOverlap);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.claimed = 0.3; }), ReliabilityTerm::kClaimed);
   EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.looked_through = 0.3; }),
-            UnreliableReason::kLowScore);
+            ReliabilityTerm::kLookedThrough);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.goes_on = 0.5; }), ReliabilityTerm::kGoesOn);
+  EXPECT_EQ(main_doubt([](DetectedPose& pose) { pose.confirmed_px = 30; }),
+            ReliabilityTerm::kConfirmed);
+}
+
+TEST(ReliabilityTerm, hasTheReasonThatAnOperatorIsShown)
+{
+  EXPECT_EQ(reasonOf(ReliabilityTerm::kMargin), UnreliableReason::kRunnerUp);
+  EXPECT_EQ(reasonOf(ReliabilityTerm::kGoesOn), UnreliableReason::kSlippage);
+  EXPECT_EQ(reasonOf(ReliabilityTerm::kSpread), UnreliableReason::kSpread);
+  EXPECT_EQ(reasonOf(ReliabilityTerm::kClaimed), UnreliableReason::kOverlap);
+  EXPECT_EQ(reasonOf(ReliabilityTerm::kVisible), UnreliableReason::kLowScore);
 }
 
 double probabilityInRegion(const DetectedPose& pose)

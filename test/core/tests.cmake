@@ -22,11 +22,13 @@ set(core_tests
     test_paper_experiments
     test_parallel
     test_pca
+    test_percent
     test_pose_clustering
     test_pose_covariance
     test_pose_errors
     test_pose_information
     test_pose_refinement
+    test_pose_report
     test_pose_verdict
     test_ppf
     test_ppf_matcher

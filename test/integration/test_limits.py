@@ -63,7 +63,7 @@ class LimitsTest(unittest.TestCase):
         self.send_scan()
         answer = call(include_mismatching=True)
         self.assertEqual(answer.status, Response.OK, answer.message)
-        self.assertEqual(answer.message, "1 reliable poses")
+        self.assertEqual(answer.message, "1 reliable pose")
         self.assertEqual(len(answer.poses), 1)
         reasons = [region.reason for region in answer.mismatching_regions]
         self.assertEqual(reasons.count(MismatchRegion.OVERLAP), 2)

@@ -19,7 +19,7 @@ ResultFile example()
   DetectionResult& result = file.result;
   file.model_id = "bracket";
   result.status = DetectionStatus::kOk;
-  result.message = "1 reliable poses";
+  result.message = "1 reliable pose";
   result.roi_points = 4711;
   result.seconds = 0.5;
   result.stages = {{"voting", 0.3}, {"clustering", 0.2}};

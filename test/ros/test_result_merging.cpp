@@ -38,6 +38,7 @@ protected:
       pose.model = model;
       pose.T_cloud_model = at(x_m);
       pose.score = score;
+      pose.reliability = 0.95;
       pose.reliable = true;
       pose.cluster = static_cast<std::int32_t>(result.clusters.size());
       result.poses.push_back(pose);
@@ -116,6 +117,7 @@ TEST_F(Merging, onlyTheBetterOfTwoInOnePlaceStaysReliable)
   EXPECT_EQ(region.reason, UnreliableReason::kOverlap);
   EXPECT_EQ(region.model, 1U);
   EXPECT_EQ(region.hypotheses, 7U);
+  EXPECT_EQ(region.reliability, 0.95);
   EXPECT_NEAR(region.T_cloud_best.translation().x(), 0.001, 1e-9);
   EXPECT_NEAR((region.box.T_cloud_box.translation() - at(0.001).translation()).norm(), 0, 1e-6);
   EXPECT_NEAR((region.box.size - Eigen::Vector3d(0.06, 0.04, 0.03)).norm(), 0, 1e-6);
@@ -161,7 +163,7 @@ TEST_F(Merging, clustersStayThoseOfTheirPoses)
 
 TEST_F(Merging, statusAndMessageAreThoseOfTheWhole)
 {
-  EXPECT_EQ(merge({found(0, {}), found(1, {{0.0, 0.7}})}).message, "1 reliable poses");
+  EXPECT_EQ(merge({found(0, {}), found(1, {{0.0, 0.7}})}).message, "1 reliable pose");
   EXPECT_EQ(merge({found(0, {}), found(1, {})}).status, DetectionStatus::kNoPickablePose);
   EXPECT_EQ(merge({found(0, {}), found(1, {})}).message, "of one detection");
   DetectionResult poor = found(0, {{0.0, 0.3}});

@@ -337,7 +337,7 @@ class TermsTest(unittest.TestCase):
         self.assertEqual(lines[1], "constexpr double kInterceptInWholeCloud = 2.000;")
         self.assertEqual(
             lines[4],
-            "      {std::clamp(pose.margin, -0.2, 0.5), UnreliableReason::kRunnerUp, {0.125, 10.000}, {0.250, -10.000}},",
+            "      {std::clamp(pose.margin, -0.2, 0.5), ReliabilityTerm::kMargin, {0.125, 10.000}, {0.250, -10.000}},",
         )
         self.assertEqual(len(lines), 3 + len(terms.TERMS))
 

@@ -5,14 +5,22 @@
 #include "ppf_bin_picking/core/point_cloud.hpp"
 #include "ppf_bin_picking/core/region_of_interest.hpp"
 
+#include <cstddef>
 #include <string>
 
 namespace ppf_bin_picking
 {
-/// One sentence on a region without measured points. It says how far away the cloud and the region
-/// are along the camera's z axis, and asks for unit and frame where these cannot be right.
+/// One sentence on a region without measured points. It says from where to where the cloud and the
+/// region reach along the camera's z axis, or along one on which they do not meet, and asks for
+/// unit and frame where these cannot be right.
 /// @param cloud_camera  Camera's optical frame [m]; has a measured point.
 std::string emptyRegionMessage(const PointCloud& cloud_camera, const RegionOfInterest& roi);
+
+/// How many poses of a result are reliable.
+std::size_t reliablePoses(const DetectionResult& result);
+
+/// `1 reliable pose`, `2 reliable poses`.
+std::string reliablePosesInWords(std::size_t count);
 
 /// One sentence on a result of which no pose is reliable: how many were turned down for which
 /// reason, the most frequent first, and what the region with the best score says.

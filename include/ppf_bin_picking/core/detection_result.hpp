@@ -2,6 +2,8 @@
 /// times.
 #pragma once
 
+#include "ppf_bin_picking/core/unreliable_reason.hpp"
+
 #include <Eigen/Geometry>
 
 #include <cstddef>
@@ -20,20 +22,6 @@ enum class DetectionStatus
   kTimeLimit,       ///< The time limit ended the search; the poses are those found until then.
   kBadCloud,        ///< The cloud cannot be worked on; the message says why.
 };
-
-/// Why a pose or a region is not reliable. The numbers are those of MismatchRegion.msg.
-enum class UnreliableReason : std::uint8_t
-{
-  kSpread = 0,    ///< Its cluster of hypotheses is too large: a mismatching region.
-  kSlippage = 1,  ///< The fit can slide.
-  kLowScore = 2,  ///< The cloud confirms too little of it.
-  kOverlap = 3,   ///< It shares space with a better pose.
-  kRunnerUp = 4,  ///< Another pose explains the same points almost as well.
-  kNone = 255,    ///< Reliable.
-};
-
-/// `SPREAD`, `SLIPPAGE`, `LOW_SCORE`, `OVERLAP`, `RUNNER_UP`; empty for kNone.
-const char* toString(UnreliableReason reason);
 
 /// A vote peak of one reference point.
 struct PoseHypothesis
@@ -105,7 +93,7 @@ struct DetectedPose
   double claimed = 0;        ///< Of the surface it expects, the share better poses explain. [0, 1]
   double reliability = 0;    ///< Probability that it is right; see reliability.hpp. [0, 1]
   /// What lowers the reliability most, of a pose that stands in the result.
-  UnreliableReason main_doubt = UnreliableReason::kLowScore;
+  ReliabilityTerm main_doubt = ReliabilityTerm::kScore;
   /// Of x y z rx ry rz [m, rad]: shifts of the mesh's origin and turns about it, along the cloud
   /// frame's axes; -1 in its first entry while unknown. See pose_covariance.hpp.
   Matrix6d covariance = unknownCovariance();
@@ -139,7 +127,7 @@ struct DetectionResult
 {
   DetectionStatus status = DetectionStatus::kNoPickablePose;
   std::string message;                     ///< One sentence a person can act on.
-  std::vector<DetectedPose> poses;         ///< Reliable ones first; best first in both parts.
+  std::vector<DetectedPose> poses;         ///< As sortResult() puts them.
   std::vector<MismatchingRegion> regions;  ///< Best score first.
   std::vector<PoseHypothesis>
       distribution;  ///< The probable pose distribution: all high-vote hypotheses.

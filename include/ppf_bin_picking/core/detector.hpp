@@ -29,7 +29,8 @@ public:
   /// @param roi           Where to look, without walls, rim and table. Without it everywhere, and
   ///                      poses are less reliable: see assessReliability().
   /// @param stop          Set to true by another thread, ends the search as a time limit does.
-  /// @return Poses, best first. Finding none is a normal outcome, see its status.
+  /// @return Poses, reliable ones first, the most reliable of all at the front. Finding none is a
+  /// normal outcome, see its status.
   /// @throw std::invalid_argument if the model was trained with other parameters, or is larger than
   /// the
   ///        region of interest.

@@ -11,8 +11,8 @@ namespace ppf_bin_picking
 struct Reliability
 {
   double probability = 0;  ///< That the pose is right. [0, 1]
-  /// The reason of the term that lowers it most, compared with the average right pose.
-  UnreliableReason main_doubt = UnreliableReason::kLowScore;
+  /// What lowers it most, compared with the average right pose.
+  ReliabilityTerm main_doubt = ReliabilityTerm::kScore;
 };
 
 /// Logistic regression (Cox 1958) over what verification and the ambiguity tests found: score,

@@ -38,7 +38,7 @@ struct DetectionView
   std::optional<ppf_bin_picking::RegionOfInterest> roi;              ///< In the cloud's frame.
 };
 
-/// The reliable poses, best first, in the target frame.
+/// The reliable poses, the most reliable first, in the target frame.
 /// @param max_poses  0: all.
 std::vector<msg::PickablePose> pickablePoses(const DetectionView& view, std::size_t max_poses);
 

@@ -37,7 +37,7 @@ ppf_bin_picking::PointCloud readCloud(const sensor_msgs::PointCloud2& cloud,
 /// looked for on their own, and merged() decides where two of them stand in one place. Time limits
 /// count over all detections.
 /// @param stop  Set from elsewhere to end the search early, with what it has.
-/// @return Poses name the parts by their index; reliable ones first, best first.
+/// @return Poses name the parts by their index; reliable ones first, the most reliable first.
 /// @throw RequestFailed (BAD_CLOUD) if the cloud cannot be worked on.
 ppf_bin_picking::DetectionResult detectParts(
     const ppf_bin_picking::PointCloud& cloud_camera, const std::vector<LoadedPartPtr>& parts,
