@@ -10,6 +10,8 @@ namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kMostOutside = 0.5;  // of what is expected of a part in the region
+
 /// A part's place: its centre and orientation.
 struct Place
 {
@@ -114,6 +116,8 @@ PoseFate fateOf(const PoseExplanation& explanation, const DetectorConfig& config
     return explanation.result.poses[static_cast<std::size_t>(explanation.rank)].reliable
                ? PoseFate::kReliable
                : PoseFate::kNotReliable;
+  if (explanation.evidence.outside > kMostOutside * explanation.evidence.expected())
+    return PoseFate::kOutsideRegion;
   if (explanation.candidates > 0) return PoseFate::kNotSelected;
   if (explanation.surface.hypotheses + explanation.boundary.hypotheses == 0)
     return PoseFate::kNoVotes;
@@ -156,6 +160,7 @@ PoseExplanation explainPose(const RangeImage& image, const PpfModel& model,
   const PoseEvidence after = gatherEvidence(image, model, refined, config);
   explanation.refined_score = poseScore(after, after.confirmed_weight);
   explanation.rank = nearestRank(at, explanation.result);
+  explanation.refined_rank = nearestRank({model, config, refined}, explanation.result);
   findOwner(image, model, config, candidates, selected, explanation);
   explanation.fate = fateOf(explanation, config);
   return explanation;

@@ -1,5 +1,7 @@
 #include "pose_explanation.hpp"
 
+#include "ppf_bin_picking/core/percent.hpp"
+
 #include "ppf_bin_picking/io/input_error.hpp"
 
 #include <algorithm>
@@ -20,9 +22,9 @@ std::string decimal(double value, int digits)
   return text.str();
 }
 
-std::string percent(double share)
+std::string percentOf(double share)
 {
-  return decimal(100 * share, 1) + " %";
+  return percent(share, 1);
 }
 
 std::string votesText(const NearVotes& near)
@@ -36,16 +38,16 @@ std::string evidenceText(const PoseEvidence& evidence)
 {
   const double all = std::max(1e-9, evidence.expected() + evidence.occluded);
   std::ostringstream text;
-  text << "visible:      " << percent(visibleFraction(evidence)) << " of its surface, "
-       << evidence.visible_px << " pixels; hidden " << percent(evidence.occluded / all) << "\n"
-       << "confirmed:    " << percent(evidence.confirmed_weight / all) << ", "
+  text << "visible:      " << percentOf(visibleFraction(evidence)) << " of its surface, "
+       << evidence.visible_px << " pixels; hidden " << percentOf(evidence.occluded / all) << "\n"
+       << "confirmed:    " << percentOf(evidence.confirmed_weight / all) << ", "
        << evidence.confirmed.size() << " pixels, RMS error "
        << decimal(1000 * evidence.rms_error_m, 3) << " mm\n"
-       << "contradicted: " << percent((evidence.looked_through + evidence.wrong_normal) / all)
-       << ": looked through " << percent(evidence.looked_through / all) << ", wrong normal "
-       << percent(evidence.wrong_normal / all) << "\n"
-       << "missing:      " << percent(evidence.missing / all) << "; outside the region "
-       << percent(evidence.outside / all) << "\n"
+       << "contradicted: " << percentOf((evidence.looked_through + evidence.wrong_normal) / all)
+       << ": looked through " << percentOf(evidence.looked_through / all) << ", wrong normal "
+       << percentOf(evidence.wrong_normal / all) << "\n"
+       << "missing:      " << percentOf(evidence.missing / all) << "; outside the region "
+       << percentOf(evidence.outside / all) << "\n"
        << "outline:      " << evidence.outline_held << " pixels held, " << evidence.outline_broken
        << " broken; where something hides it " << evidence.stepped << " a step, "
        << evidence.pierced << " passed through\n";
@@ -77,8 +79,12 @@ std::string verdict(const PoseExplanation& explanation)
     case PoseFate::kNotLookedFor:
       return "not looked for: " + result.message;
     case PoseFate::kOutOfSight:
-      return "not looked for: the part would lie outside the image around the region; give the "
-             "pose in metres, in the cloud's frame";
+      return "not looked for: the part would lie outside the image around the region; check the "
+             "region, and give the pose in metres, in the cloud's frame";
+    case PoseFate::kOutsideRegion:
+      return "failed at the region of interest: " +
+             percentOf(explanation.evidence.outside / explanation.evidence.expected()) +
+             " of what it should show lies outside of it";
     case PoseFate::kNoVotes:
       return "failed at voting: no hypothesis is near it";
     case PoseFate::kNoCandidate:
@@ -153,14 +159,18 @@ std::string explanationText(const PoseExplanation& explanation, const DetectorCo
        << " after the first look (min_look_balance " << config.min_look_balance << ")\n"
        << "refinement:   moves it by " << decimal(1000 * explanation.refined_shift_m, 2)
        << " mm and " << decimal(180 / M_PI * explanation.refined_turn_rad, 2)
-       << " degrees, to score " << decimal(explanation.refined_score, 3) << "\n"
+       << " degrees, to score " << decimal(explanation.refined_score, 3)
+       << (explanation.rank >= 0 || explanation.refined_rank < 0
+               ? ""
+               : ", onto " + poseName(result, explanation.refined_rank))
+       << "\n"
        << "coincides:    "
        << (explanation.rank < 0 ? "with no pose of the result" : poseName(result, explanation.rank))
        << "\n"
        << "owner:        "
        << (explanation.owner < 0 ? "no pose owns its pixels"
                                  : poseName(result, explanation.owner) + " owns " +
-                                       percent(explanation.owned_share) + " of what confirms it")
+                                       percentOf(explanation.owned_share) + " of what confirms it")
        << "\n"
        << "verdict:      " << verdict(explanation) << "\n";
   return text.str();

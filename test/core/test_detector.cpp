@@ -115,6 +115,26 @@ TEST_F(DetectorTest, explainsAWrongPoseByWhatStoppedIt)
   EXPECT_EQ(outside.result.status, DetectionStatus::kRoiEmpty);
 }
 
+TEST_F(DetectorTest, explainsARightPoseThatTheRegionLeavesOut)
+{
+  RegionOfInterest beside = roi_;
+  beside.min.x() = -0.02;
+  const PoseExplanation left_out =
+      Detector(coarseConfig()).explain(cloud(), bracket_, beside, T_camera_bracket_);
+  EXPECT_EQ(left_out.fate, PoseFate::kOutsideRegion);
+  EXPECT_GT(left_out.evidence.outside, 0.5 * left_out.evidence.expected());
+}
+
+TEST_F(DetectorTest, explainsARoughPoseByThePoseThatItsRefinementLandsOn)
+{
+  const Eigen::Isometry3d rough =
+      T_camera_bracket_ * poseOf(0, {0, 0, 1}, {0.12 * bracket_.diameter(), 0, 0});
+  const PoseExplanation explained =
+      Detector(coarseConfig()).explain(cloud(), bracket_, roi_, rough);
+  EXPECT_EQ(explained.rank, -1);
+  EXPECT_EQ(explained.refined_rank, 0);
+}
+
 TEST_F(DetectorTest, explainsAPoseThatTheFirstLooksGiveUp)
 {
   DetectorConfig strict = coarseConfig();

@@ -19,14 +19,15 @@ namespace ppf_bin_picking
 /// Where a pose got to. It failed at the first gate it did not pass.
 enum class PoseFate
 {
-  kNotLookedFor,  ///< No point in the region, or a cloud that cannot be worked on.
-  kOutOfSight,    ///< Nothing of the part lies in the image around the region.
-  kNoVotes,       ///< Neither surfaces nor boundaries voted for anything near it.
-  kNoCandidate,   ///< Votes, but others had more: no refined candidate is near it.
-  kGivenUp,       ///< The same, and at this pose one would be given up at the first looks.
-  kNotSelected,   ///< A candidate, but better poses own its pixels, or it scores too little.
-  kNotReliable,   ///< It stands but is not reliable; the pose has the reason.
-  kReliable,      ///< It stands and is reliable.
+  kNotLookedFor,   ///< No point in the region, or a cloud that cannot be worked on.
+  kOutOfSight,     ///< Nothing of the part lies in the image around the region.
+  kOutsideRegion,  ///< It is none of the result's; what explains it lies outside the region.
+  kNoVotes,        ///< Neither surfaces nor boundaries voted for anything near it.
+  kNoCandidate,    ///< Votes, but others had more: no refined candidate is near it.
+  kGivenUp,        ///< The same, and at this pose one would be given up at the first looks.
+  kNotSelected,    ///< A candidate, but better poses own its pixels, or it scores too little.
+  kNotReliable,    ///< It stands but is not reliable; the pose has the reason.
+  kReliable,       ///< It stands and is reliable.
 };
 
 /// Hypotheses near a pose. Near is nearer than group_distance_rel and turned by less than
@@ -54,6 +55,7 @@ struct PoseExplanation
   double refined_shift_m = 0;   ///< How far refinement takes the part's centre ...
   double refined_turn_rad = 0;  ///< ... and turns the part, symmetries counted.
   double refined_score = 0;     ///< The score after that.
+  int refined_rank = -1;        ///< Index of the result's pose near the refined one; -1: none.
   int rank = -1;                ///< Index of the pose near it in the result; -1: none.
   int owner = -1;               ///< Index of the result's pose that owns most of its pixels, or -1.
   double owned_share = 0;       ///< Share of its confirmed weight that this one owns.
