@@ -15,6 +15,7 @@ namespace
 {
 constexpr float kPlaceRel =
     0.15F;  // candidates nearer than this share a place, relative to the diameter
+constexpr float kJumpNoises = 4;  // a fall beyond a boundary is at least so many of the noise
 constexpr std::size_t kMaxPerPlace = 6;  // so that turns of one part do not crowd out the others
 
 /// The groups worth refining: most votes first, a few a place.
@@ -121,8 +122,10 @@ std::vector<PoseHypothesis> boundaryHypotheses(const RangeImage& image, const Pp
                                                const Deadline& deadline)
 {
   const auto diameter_m = static_cast<float>(model.diameter());
-  const std::vector<BoundaryPoint> boundary = thinOutBoundary(
-      boundaryOf(image, boundaryJump(diameter_m), config.threads), boundarySpacing(diameter_m));
+  const float jump_m =
+      std::max(boundaryJump(diameter_m), kJumpNoises * static_cast<float>(image.noise_m));
+  const std::vector<BoundaryPoint> boundary =
+      thinOutBoundary(boundaryOf(image, jump_m, config.threads), boundarySpacing(diameter_m));
   return matchBoundary(boundary, model, config, deadline);
 }
 

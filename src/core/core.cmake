@@ -18,6 +18,7 @@ add_library(
   ${core_dir}/candidate_verification.cpp
   ${core_dir}/canonical_pose.cpp
   ${core_dir}/dbscan.cpp
+  ${core_dir}/depth_noise.cpp
   ${core_dir}/detection_message.cpp
   ${core_dir}/detector.cpp
   ${core_dir}/detector_config.cpp

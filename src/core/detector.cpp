@@ -172,6 +172,7 @@ void search(const PointCloud& cloud_camera, const std::vector<const PpfModel*>& 
       makeRangeImage(cloud_camera, roi, imageOptions(config, models));
   const RangeImage& image = prepared.image;
   result.roi_points = prepared.roi_points;
+  result.noise_m = image.noise_m;
   const auto lap = [&](const char* stage) { clock.lap(stage, result.stages); };
   lap("preparation");
   if (prepared.roi_points == 0)

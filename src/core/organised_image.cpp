@@ -1,3 +1,4 @@
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/normals.hpp"
 #include "ppf_bin_picking/core/parallel.hpp"
 
@@ -13,6 +14,10 @@ namespace ppf_bin_picking
 {
 namespace
 {
+constexpr double kMostTurn_rad = 0.15;  // of a normal, by noise, as a standard deviation
+constexpr int kWidestRadius_px = 5;
+constexpr double kGateNoises = 7;  // that a normal's neighbourhood reaches at least
+
 /// The columns and rows of an image that matter.
 struct Window
 {
@@ -107,6 +112,29 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
   parallelFor(threads, static_cast<std::size_t>(image.camera.height), average_row);
   return image;
 }
+/// The half window from which on noise turns the planes by no more than kMostTurn_rad.
+/// @param slope_noise  Of the depth from pixel to pixel, in pixels.
+int normalRadius(double slope_noise, int least_px)
+{
+  for (int radius_px = least_px; radius_px < kWidestRadius_px; ++radius_px)
+  {
+    // The sum of the squared steps of a window's pixels along one direction.
+    const double width = 2 * radius_px + 1;
+    const double squares = width * width * radius_px * (radius_px + 1) / 3;
+    if (slope_noise <= kMostTurn_rad * std::sqrt(squares)) return radius_px;
+  }
+  return std::max(least_px, kWidestRadius_px);
+}
+
+/// Normals from planes through windows that suit the noise.
+void estimateNormals(RangeImage& image, float near_z, const RangeImageOptions& options)
+{
+  const double pixel_m = near_z / image.camera.fx;
+  image.normal_radius_px = normalRadius(image.noise_m / pixel_m, options.normal_radius_px);
+  const auto gate_m = static_cast<float>(
+      std::max<double>(kNormalGateRel * options.diameter_m, kGateNoises * image.noise_m));
+  estimateImageNormals(image, image.normal_radius_px, gate_m, options.threads);
+}
 }  // namespace
 
 void takeCloudNormals(const PointCloud& cloud, RangeImage& image)
@@ -148,11 +176,11 @@ RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera
   RangeImage image =
       averagedDown(cloud, inside, camera, window, factor,
                    kSameSurfaceRel * static_cast<float>(options.diameter_m), options.threads);
+  image.noise_m = depthNoise(image);
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);
   else
-    estimateImageNormals(image, options.normal_radius_px,
-                         kNormalGateRel * static_cast<float>(options.diameter_m), options.threads);
+    estimateNormals(image, near_z, options);
   return image;
 }
 }  // namespace ppf_bin_picking

@@ -1,3 +1,4 @@
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/neighbor_search.hpp"
 #include "ppf_bin_picking/core/normals.hpp"
 
@@ -155,6 +156,7 @@ RangeImage imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t
                               margin_rad);
   drawPoints(cloud, inside, image);
   fillHoles(image, kSameSurfaceRel * diameter);
+  image.noise_m = depthNoise(image);
   const float pixel_m = near_z / image.camera.fx;
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);

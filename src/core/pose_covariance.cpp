@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/pose_covariance.hpp"
 
 #include "ppf_bin_picking/core/boundary_table.hpp"
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
@@ -83,7 +84,7 @@ public:
         view_(view),
         center_(center),
         diameter_m_(static_cast<float>(diameter_m)),
-        gate_m_(static_cast<float>(config.depth_gate_rel * diameter_m)),
+        gate_m_(static_cast<float>(depthGate(image, diameter_m, config))),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
   }

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/pose_information.hpp"
 
 #include "ppf_bin_picking/core/boundary_table.hpp"
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 
@@ -132,7 +133,7 @@ PoseInformation gatherInformation(const RangeImage& image, const PpfModel& model
   RenderedPart view;
   renderPart(model.renderable(), T_camera_model, image.camera, view);
   const auto diameter_m = static_cast<float>(model.diameter());
-  const float gate_m = static_cast<float>(config.depth_gate_rel) * diameter_m;
+  const auto gate_m = static_cast<float>(depthGate(image, diameter_m, config));
   const Eigen::Vector3f center = T_camera_model * model.data().center;
   PoseInformation information;
   addSurface(image, view, center, kLeverRel * diameter_m, gate_m,

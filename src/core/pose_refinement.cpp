@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/pose_refinement.hpp"
 
 #include "ppf_bin_picking/core/alignment.hpp"
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
@@ -122,7 +123,7 @@ struct Stepper
         model(given_model),
         arrays(arraysOf(given_image)),
         diameter_m(given_model.data().diameter_m),
-        last_gate_m(1.5F * static_cast<float>(config.depth_gate_rel) * diameter_m)
+        last_gate_m(1.5F * static_cast<float>(depthGate(given_image, diameter_m, config)))
   {
   }
 

@@ -1,6 +1,7 @@
 #include "ppf_bin_picking/core/sparse_fit.hpp"
 
 #include "ppf_bin_picking/core/alignment.hpp"
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/pose_information.hpp"
 #include "ppf_bin_picking/core/sample_balance.hpp"
 
@@ -69,7 +70,7 @@ SparseFit fitSparsely(const RangeImage& image, const PpfModel& model,
               T_camera_samples))
       break;
   }
-  const float gate_m = 1.5F * static_cast<float>(config.depth_gate_rel) * data.diameter_m;
+  const float gate_m = 1.5F * static_cast<float>(depthGate(image, data.diameter_m, config));
   SparseFit fit;
   fit.balance =
       sampleBalance(image, facingSamples(data, T_camera_samples), T_camera_samples, gate_m, config);

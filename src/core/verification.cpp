@@ -1,5 +1,6 @@
 #include "ppf_bin_picking/core/verification.hpp"
 
+#include "ppf_bin_picking/core/depth_noise.hpp"
 #include "ppf_bin_picking/core/model_renderer.hpp"
 #include "ppf_bin_picking/core/outline.hpp"
 
@@ -41,9 +42,9 @@ public:
              float diameter_m)
       : image_(image),
         view_(view),
-        gate_m_(static_cast<float>(config.depth_gate_rel) * diameter_m),
+        gate_m_(static_cast<float>(depthGate(image, diameter_m, config))),
         jump_m_(boundaryJump(diameter_m)),
-        normal_radius_px_(config.normal_radius_px),
+        normal_radius_px_(image.normal_radius_px),
         min_normal_cosine_(std::cos(static_cast<float>(config.normal_gate_rad)))
   {
     const float depth_m =

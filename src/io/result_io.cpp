@@ -179,6 +179,7 @@ ResultFile fileFrom(const json& root)
   result.message = root.at("message").get<std::string>();
   result.seconds = root.at("time_ms").get<double>() / kMilliseconds;
   result.roi_points = root.at("roi_points").get<std::size_t>();
+  result.noise_m = root.value("noise_m", 0.0);
   for (const auto& stage : root.at("stages_ms").items())
     result.stages.push_back({stage.key(), stage.value().get<double>() / kMilliseconds});
   for (const json& item : root.at("poses"))
@@ -218,6 +219,7 @@ std::string toJson(const ResultFile& file)
                {"train_ms", file.train_seconds * kMilliseconds},
                {"stages_ms", json::object()},
                {"roi_points", result.roi_points},
+               {"noise_m", result.noise_m},
                {"poses", json::array()},
                {"regions", json::array()}};
   for (const StageTime& stage : result.stages)

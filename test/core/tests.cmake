@@ -5,6 +5,7 @@ set(core_tests
     test_candidate_verification
     test_canonical_pose
     test_dbscan
+    test_depth_noise
     test_detection_message
     test_detector
     test_detector_config

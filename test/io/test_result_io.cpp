@@ -21,6 +21,7 @@ ResultFile example()
   result.status = DetectionStatus::kOk;
   result.message = "1 reliable pose";
   result.roi_points = 4711;
+  result.noise_m = 0.0002;
   result.seconds = 0.5;
   result.stages = {{"voting", 0.3}, {"clustering", 0.2}};
   DetectedPose pose;
@@ -65,6 +66,7 @@ TEST(Result, hasTheFieldsThatOthersReadFromIt)
   EXPECT_EQ(root["time_ms"], 500.0);
   EXPECT_EQ(root["train_ms"], 250.0);
   EXPECT_EQ(root["roi_points"], 4711);
+  EXPECT_EQ(root["noise_m"], 0.0002);
   EXPECT_EQ(root["stages_ms"]["voting"], 300.0);
   ASSERT_EQ(root["poses"].size(), 2U);
   const json& pose = root["poses"][1];

@@ -134,6 +134,7 @@ struct DetectionResult
   std::vector<HypothesisCluster> clusters;
   std::vector<Eigen::Vector3f> scene_points;  ///< The sampled scene of the first model [m].
   std::size_t roi_points = 0;                 ///< Measured points in the region of interest.
+  double noise_m = 0;                         ///< Of the depth in the region; see depthNoise().
   std::vector<StageTime> stages;              ///< In order of execution.
   double seconds = 0;                         ///< Whole detection.
 };

@@ -40,7 +40,7 @@ struct DetectorConfig
   int max_points = 5000000;          ///< A larger cloud is refused. >= 1.
   bool use_cloud_normals = false;    ///< Take the cloud's own normals instead of computing them.
   double pixels_per_diameter = 100;  ///< Resolution that the image is averaged down to. >= 20.
-  int normal_radius_px = 2;          ///< Half window of the plane fits in the image. In [1, 10].
+  int normal_radius_px = 2;  ///< Least half window of the plane fits in the image. In [1, 10].
 
   // Voting
   double reference_share = 0.1;  ///< Share of the scene points that are reference points. (0, 1].
@@ -77,7 +77,7 @@ struct DetectorConfig
   double min_look_balance = -0.2;    ///< ... or worse than this after the first look. [-2, 1].
   int icp_iterations = 12;           ///< Steps of point-to-plane ICP. In [0, 100].
   bool climb = true;  ///< Poses that the cloud says little for climb, see evidence_climb.hpp.
-  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this distance. > 0.
+  double depth_gate_rel = 0.02;    ///< A surface confirms a pose within this, see depthGate(). > 0.
   double normal_gate_rad = 0.6;    ///< ... and within this turn of the normal. (0, pi/2].
   double min_score = kLeastScore;  ///< Poses scoring less are not reliable. [kLeastScore, 1].
   double min_visible_share = 0.2;  ///< Poses showing less of their surface neither. [0, 1].

@@ -22,6 +22,8 @@ struct RangeImage
   std::vector<Eigen::Vector3f> normals;  ///< Unit length, towards the camera; zero where unknown.
   std::vector<std::uint8_t> in_roi;  ///< 1 where the measured point lies in the region of interest.
   bool whole_cloud = false;          ///< Without a region of interest: all points lie in it.
+  double noise_m = 0;                ///< Of the depth, see depthNoise().
+  int normal_radius_px = 2;          ///< Half window of the plane fits that the normals are from.
 
   std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * camera.width + u; }
   Eigen::Vector3f point(int u, int v) const
@@ -37,7 +39,7 @@ struct RangeImageOptions
   double largest_diameter_m =
       0;  ///< Of the largest part; the image reaches this far around the region.
   double pixels_per_diameter = 100;  ///< Resolution aimed at.
-  int normal_radius_px = 2;          ///< Half window of the plane fits.
+  int normal_radius_px = 2;          ///< Half window of the plane fits, where there is no noise.
   bool use_cloud_normals = false;    ///< Take the cloud's normals where it has them.
   int threads = 0;
 };
@@ -58,9 +60,9 @@ std::optional<PinholeCamera> estimateCamera(const PointCloud& cloud);
 
 /// Makes the image; it stays empty without a point in the region. Stray points decide neither its
 /// resolution nor its size. An organised cloud keeps its pixels, averaged down by a whole number;
-/// normals come from the neighbourhood in the image. Any other cloud is projected into a camera of
-/// its own whose pixel is as large as the points' spacing; normals come from the nearest points in
-/// space.
+/// normals come from the neighbourhood in the image, which is taken wider where the depth is noisy.
+/// Any other cloud is projected into a camera of its own whose pixel is as large as the points'
+/// spacing; normals come from the nearest points in space.
 RangeImageResult makeRangeImage(const PointCloud& cloud, const std::optional<RegionOfInterest>& roi,
                                 const RangeImageOptions& options);
 }  // namespace ppf_bin_picking
