@@ -5,7 +5,7 @@ import statistics
 from ablation_lib.copies import NOISE_M
 from benchmark_lib.report import number, table
 
-from .scans import INSIDE, LEFT_OUT
+from .scans import FLOOR_M, INSIDE, LEFT_OUT
 from .seen import NEAR_M, PINS, VERDICTS
 
 IMAGE_PICTURE = "images/real_scan_image.png"
@@ -31,7 +31,8 @@ with about 20, a point each millimetre on pins six thick. What is told is how ma
 how many lie where no pin can. Beside the image there is a colour picture, in which a person sees {len(PINS)} pins and which end is the head; a pose is right if its ends
 lie within {NEAR_M * 1000:g} mm of a pin's there, across the line of sight, end for end if they do the other way round, elsewhere if neither, also on a pin too hidden to be listed
 (`scripts/real_scan_lib/seen.py`). Beside the cloud there is none: `check_poses` does not tell head from tail where a pin is a few points wide, so look at the pictures. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
-its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order. Written by
+its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order,
+and a region that ends {FLOOR_M * 1000:g} mm nearer or farther, as whoever measures a bin may give it. Written by
 
     {facts["command"]}
 

@@ -1,4 +1,4 @@
-"""The real scans, and the same as they might have come out as well: turned, with more noise, in another order."""
+"""The real scans, and the same as they might have come out as well: turned, with more noise, in another order, in another region."""
 
 from dataclasses import dataclass, replace
 
@@ -11,11 +11,16 @@ from benchmark_lib.clouds import read_cloud, write_cloud
 from benchmark_lib.scene_files import camera_text, region_text
 
 LEFT_OUT = 0.03  # share of a loose cloud's points
+FLOOR_M = 0.002  # that a region begins lower or higher
 CLOUD_UNIT_M = 0.001  # of one_bin.pcd
 QUARTER_TURN = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])  # what was right is above
 # Inside of its bin, in its camera's frame [m]: depth and height as those of the bins in bins.yaml, which are of the same
 # kind and stand as far away; the sides as far apart as its walls are.
 INSIDE = (np.array([-0.042, -0.065, 0.445]), np.array([0.040, 0.098, 0.4955]))
+FLOORS = {
+    f"region {FLOOR_M * 1000:g} mm shallower": -FLOOR_M,
+    f"region {FLOOR_M * 1000:g} mm deeper": FLOOR_M,
+}
 
 
 @dataclass(frozen=True)
@@ -45,6 +50,11 @@ class ImageScan:
         """Gaussian noise on what is measured."""
         return replace(self, levels=with_noise(self.levels, self.camera["depth_unit_m"], seed))
 
+    def deeper(self, by_m):
+        """The regions reach so much farther from the camera."""
+        shift = np.array([[0, 0, 0], [0, 0, by_m]])
+        return replace(self, regions={name: box + shift for name, box in self.regions.items()})
+
     def write(self, region, folder):
         """A scene's folder for one of the bins."""
         folder.mkdir(parents=True, exist_ok=True)
@@ -60,12 +70,13 @@ class CloudScan:
 
     points: np.ndarray
     turn: np.ndarray  # 3 x 3, from the scan's camera
+    deeper_m: float = 0.0  # that the region reaches farther from the camera than the inside
 
     def turned(self, degrees):
         """The camera turned about its axis."""
         cosine, sine = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
         turn = np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
-        return CloudScan(self.points @ turn.T, turn @ self.turn)
+        return replace(self, points=self.points @ turn.T, turn=turn @ self.turn)
 
     def shuffled(self, seed):
         """The points in another order."""
@@ -87,7 +98,7 @@ class CloudScan:
         changed has its very numbers."""
         folder.mkdir(parents=True, exist_ok=True)
         write_cloud(self.points / CLOUD_UNIT_M, folder / "cloud.pcd")
-        low, high = INSIDE
+        low, high = INSIDE[0], INSIDE[1] + [0, 0, self.deeper_m]
         pose = np.eye(4)
         pose[:3, :3] = self.turn
         region = {"min": low, "max": high, "pose": pose.ravel()}
@@ -108,6 +119,8 @@ def image_draws(data):
         draws[f"turned by {degrees} degrees"] = turned
     for seed in (1, 2, 3, 4):
         draws[f"{NOISE_M * 1000:g} mm of noise, seed {seed}"] = scan.noisy(seed)
+    for name, by_m in FLOORS.items():
+        draws[name] = scan.deeper(by_m)
     return draws
 
 
@@ -119,4 +132,6 @@ def cloud_draws(data):
         draws[f"turned by {degrees} degrees"] = scan.turned(degrees)
     for seed in range(1, 8):
         draws[f"{LEFT_OUT * 100:g} % left out, seed {seed}"] = scan.thinned(seed)
+    for name, by_m in FLOORS.items():
+        draws[name] = replace(scan, deeper_m=by_m)
     return draws

@@ -283,10 +283,11 @@ class DrawsTest(unittest.TestCase):
             )
         first = next(iter(images.values()))
         np.testing.assert_array_equal(first.levels, levels)
-        self.assertEqual(len({scan.levels.tobytes() for scan in images.values()}), len(images))
-        first = next(iter(clouds.values()))
-        np.testing.assert_allclose(first.points, points / 1000, rtol=1e-6)
-        self.assertEqual(len({scan.points.tobytes() for scan in clouds.values()}), len(clouds))
+        kinds = {(scan.levels.tobytes(), str(scan.regions)) for scan in images.values()}
+        self.assertEqual(len(kinds), len(images))
+        np.testing.assert_allclose(clouds["as it is"].points, points / 1000, rtol=1e-6)
+        kinds = {(scan.points.tobytes(), scan.deeper_m) for scan in clouds.values()}
+        self.assertEqual(len(kinds), len(clouds))
 
 
 class ReportTest(unittest.TestCase):

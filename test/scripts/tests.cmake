@@ -6,5 +6,6 @@ set(scripts_tests
     test_loops
     test_pins_seen
     test_real_scan
+    test_real_scan_regions
     test_reliability
     test_reliability_scenes)
