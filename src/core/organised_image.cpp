@@ -112,6 +112,7 @@ RangeImage averagedDown(const PointCloud& cloud, const std::vector<std::uint8_t>
   parallelFor(threads, static_cast<std::size_t>(image.camera.height), average_row);
   return image;
 }
+
 /// The half window from which on noise turns the planes by no more than kMostTurn_rad.
 /// @param slope_noise  Of the depth from pixel to pixel, in pixels.
 int normalRadius(double slope_noise, int least_px)
@@ -177,6 +178,7 @@ RangeImage imageOfOrganised(const PointCloud& cloud, const PinholeCamera& camera
       averagedDown(cloud, inside, camera, window, factor,
                    kSameSurfaceRel * static_cast<float>(options.diameter_m), options.threads);
   image.noise_m = depthNoise(image);
+  image.normal_radius_px = options.normal_radius_px;
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);
   else

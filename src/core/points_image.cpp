@@ -157,6 +157,7 @@ RangeImage imageOfPoints(const PointCloud& cloud, const std::vector<std::uint8_t
   drawPoints(cloud, inside, image);
   fillHoles(image, kSameSurfaceRel * diameter);
   image.noise_m = depthNoise(image);
+  image.normal_radius_px = options.normal_radius_px;
   const float pixel_m = near_z / image.camera.fx;
   if (options.use_cloud_normals && !cloud.normals.empty())
     takeCloudNormals(cloud, image);

@@ -108,6 +108,10 @@ TEST(RangeImageNoise, widensTheWindowsOfTheNormals)
   EXPECT_LT(mean_turn_rad(noisy), 0.25);
   options.normal_radius_px = 7;
   EXPECT_EQ(image_of(static_cast<float>(2 * pixel_m)).normal_radius_px, 7);
+  PointCloud loose =
+      renderCloud({{squareMesh(0.6F), poseOf(M_PI, {1, 0, 0}, {0, 0, 0.6})}}, smallCamera());
+  loose.width = loose.height = 0;
+  EXPECT_EQ(makeRangeImage(loose, std::nullopt, options).image.normal_radius_px, 7);
 }
 }  // namespace
 }  // namespace ppf_bin_picking
