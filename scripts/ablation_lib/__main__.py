@@ -1,6 +1,7 @@
 """Command line of scripts/ablation."""
 
 import argparse
+import concurrent.futures
 import json
 import os
 import statistics
@@ -73,6 +74,7 @@ class Ablation:
         cores = {row.name: core.library(row) for row in rows if row.edits}
         for bench in (self.bins, self.real, self.own):
             bench.cores = cores
+            bench.trained_as = {row.name: ROWS[0].name for row in rows if not row.trains}
         self.bin_scenes = copy_bins(options.data / "bins", self.bins, options.seeds)
         self.draws = image_draws(options.data / "real/pins")
         self.images = write_images(self.real, self.draws)
@@ -85,8 +87,17 @@ class Ablation:
 
     def measure(self, row):
         """Figures of a row."""
-        own = self.own_figures(row.name)
-        bins = [self.bin_figures(row.name, seed) for seed in self.bin_scenes]
+        every_bin = [scene for scenes in self.bin_scenes.values() for scene in scenes]
+        self.own.detect_side_by_side(row.name, self.own_scenes)
+        self.bins.detect_side_by_side(row.name, every_bin)
+        judged = [(self.own, "ablation", self.own_scenes)]
+        judged += [(self.bins, f"seed-{k}", scenes) for k, scenes in self.bin_scenes.items()]
+
+        def judge(bench, name, scenes):
+            return bench.evaluate(name, row.name, scenes)["summary"]
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            own, *bins = pool.map(judge, *zip(*judged))
         return {"bins": bins, "own": own, **self.real_figures(row.name)}
 
     def real_figures(self, variant):
@@ -105,15 +116,6 @@ class Ablation:
             "not_right": [sum(counts[1:]) for counts in verdicts],
             "others": sum(reliable_poses(self.real, variant, scene) for scene in others),
         }
-
-    def bin_figures(self, variant, seed):
-        scenes = self.bin_scenes[seed]
-        self.bins.detect_side_by_side(variant, scenes)
-        return self.bins.evaluate(f"seed-{seed}", variant, scenes)["summary"]
-
-    def own_figures(self, variant):
-        self.own.detect_side_by_side(variant, self.own_scenes)
-        return self.own.evaluate("ablation", variant, self.own_scenes)["summary"]
 
     def relative_times(self, rows):
         """Of each row, over the first one: median over a scene of each part. All rows meet a scene one after the other,

@@ -3,6 +3,10 @@
 from dataclasses import dataclass, field
 
 
+# What decides the content of a trained model, see ModelParameters in detector_config.hpp.
+MODEL_SETTINGS = {"step_rel", "n_angle"}
+
+
 @dataclass(frozen=True)
 class Row:
     """A change of the settings or of the core's sources, and what follows from its figures."""
@@ -12,6 +16,11 @@ class Row:
     decision: str = ""  # none: not taken yet
     what: str = ""  # is changed; none: the settings say it
     edits: tuple = ()  # of the core's sources, see edited_core.py
+
+    @property
+    def trains(self):
+        """Whether it needs models of its own."""
+        return bool(self.edits) or not MODEL_SETTINGS.isdisjoint(self.settings)
 
 
 ROWS = (

@@ -23,6 +23,7 @@ class Bench:
         self.folder = folder
         self.configs = configs  # path of the settings of each variant
         self.cores = {}  # path of the core library of a variant that has one of its own
+        self.trained_as = {}  # the variant that trains a variant's models, where it is another
 
     def part_folder(self, part):
         return self.folder / "scenes" / part
@@ -78,6 +79,7 @@ class Bench:
 
     def model(self, variant, part):
         """The part's trained model."""
+        variant = self.trained_as.get(variant, variant)
         path = self.folder / "models" / variant / f"{part}.ppf"
         key = digest(
             *self.variant_files(variant), self.part_digest(part), program_digest("train_model")
@@ -161,8 +163,6 @@ class Bench:
         parts: what is looked for in each scene; its own if not given.
         """
         parts = parts or [scene.part for scene in scenes]
-        for part in dict.fromkeys(parts):
-            self.model(variant, part)  # trained once, before several need it
         progress = Progress(f"poses, {variant}", len(scenes))
 
         def detect(scene, part):
@@ -170,6 +170,8 @@ class Bench:
             progress.step(f"{part} in {scene.part} {scene.name}", made)
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            # Each trained once, before several scenes need it.
+            list(pool.map(lambda part: self.model(variant, part), dict.fromkeys(parts)))
             list(pool.map(detect, scenes, parts))
 
     def make_view(self, name, scenes):

@@ -1,5 +1,6 @@
 """The rows of the ablation, and the edits of the core's sources that leave steps out."""
 
+import re
 import sys
 import tempfile
 import unittest
@@ -12,9 +13,10 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 from ablation_lib import __main__ as ablation_main
 from ablation_lib.__main__ import Ablation
 from ablation_lib.edited_core import Edit, edited
-from ablation_lib.rows import ROWS
+from ablation_lib.rows import MODEL_SETTINGS, ROWS
 from ablation_lib.steps import STEPS
-from benchmark_lib import programs
+from benchmark_lib import detection, programs
+from benchmark_lib.detection import Bench
 from benchmark_lib.programs import BenchmarkError
 
 
@@ -57,6 +59,23 @@ class Rows(unittest.TestCase):
         for row in ROWS[1:] + STEPS:
             with self.subTest(row=row.name):
                 self.assertTrue(row.settings or (row.edits and row.what))
+
+    def test_train_models_where_what_decides_their_content_is_changed(self):
+        header = PACKAGE / "include/ppf_bin_picking/core/detector_config.hpp"
+        settings = re.findall(r"config\.model\.(\w+)", header.read_text(encoding="utf-8"))
+        self.assertEqual(MODEL_SETTINGS, set(settings))
+        self.assertEqual([row.name for row in ROWS if row.trains], ["step-0.05"])
+        self.assertTrue(all(row.trains for row in STEPS))
+
+    def test_take_the_models_of_another_row_where_they_are_the_same(self):
+        bench = Bench(Path("folder"), {"default": Path("default.yaml"), "row": Path("row.yaml")})
+        bench.trained_as = {"row": "default"}
+        bench.part_digest = lambda part: ""
+        replaced = {"program_digest": str, "digest": lambda *things: str(things)}
+        with mock.patch.multiple(detection, once=mock.DEFAULT, **replaced) as mocked:
+            path = bench.model("row", "bolt")
+        self.assertEqual(path, Path("folder/models/default/bolt.ppf"))
+        self.assertIn("default.yaml", mocked["once"].call_args.args[1])
 
 
 class RealFigures(unittest.TestCase):
