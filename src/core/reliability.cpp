@@ -26,8 +26,8 @@ struct Term
 };
 
 // Fitted by scripts/fit_reliability; docs/reliability.md shows how well.
-constexpr double kInterceptInRegion = -0.200;
-constexpr double kInterceptInWholeCloud = -2.227;
+constexpr double kInterceptInRegion = -0.530;
+constexpr double kInterceptInWholeCloud = -2.185;
 
 // As in scripts/reliability_lib/usual.py: what is usual is fitted together with the weights.
 constexpr std::size_t kZeros = 5;  // beside the poses that show what is usual
@@ -37,31 +37,31 @@ std::array<Term, 10> termsOf(const DetectedPose& pose)
 {
   const double score = std::clamp(pose.score, 0.2, 0.98);
   return {{
-      {std::log(score / (1 - score)), ReliabilityTerm::kScore, {0.138, 2.585}, {0.755, 2.832}},
+      {std::log(score / (1 - score)), ReliabilityTerm::kScore, {0.117, 2.641}, {0.756, 2.928}},
       {std::clamp(pose.margin, -0.2, 0.5),
        ReliabilityTerm::kMargin,
-       {5.759, 0.456},
-       {6.337, 0.459}},
+       {5.749, 0.456},
+       {5.826, 0.460}},
       {std::log10(std::max(pose.hold, 0.001)),
        ReliabilityTerm::kHold,
-       {2.532, -1.096},
-       {2.458, -1.076}},
-      {pose.slide_share, ReliabilityTerm::kSlideShare, {-0.694, 0.140}, {-2.045, 0.077}},
-      {std::min(pose.spread, 2.0), ReliabilityTerm::kSpread, {-0.060, 0.186}, {-2.752, 0.192}},
+       {2.462, -1.098},
+       {2.232, -1.079}},
+      {pose.slide_share, ReliabilityTerm::kSlideShare, {-0.825, 0.135}, {-2.151, 0.071}},
+      {std::min(pose.spread, 2.0), ReliabilityTerm::kSpread, {-0.161, 0.180}, {-3.005, 0.185}},
       {std::max(pose.looked_through - pose.usual_looked_through, 0.0),
        ReliabilityTerm::kLookedThrough,
-       {-25.853, 0.006},
-       {-15.509, 0.004}},
-      {pose.goes_on, ReliabilityTerm::kGoesOn, {-5.004, 0.035}, {-5.890, 0.019}},
-      {pose.claimed, ReliabilityTerm::kClaimed, {-14.843, 0.001}, {-12.372, 0.001}},
+       {-27.505, 0.005},
+       {-19.623, 0.003}},
+      {pose.goes_on, ReliabilityTerm::kGoesOn, {-4.992, 0.034}, {-4.803, 0.018}},
+      {pose.claimed, ReliabilityTerm::kClaimed, {-14.391, 0.001}, {-13.445, 0.001}},
       {std::log10(std::max(pose.confirmed_px, 30)),
        ReliabilityTerm::kConfirmed,
-       {1.330, 3.143},
-       {1.304, 2.971}},
+       {1.441, 3.144},
+       {1.282, 2.974}},
       {std::min(pose.visible_fraction, 1.0),
        ReliabilityTerm::kVisible,
-       {1.088, 0.798},
-       {1.709, 0.809}},
+       {1.046, 0.798},
+       {1.459, 0.810}},
   }};
 }
 }  // namespace
