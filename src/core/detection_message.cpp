@@ -14,6 +14,37 @@ namespace
 constexpr double kAnotherUnit = 3;  // times as far away: no empty bin is so high
 constexpr std::array<const char*, 3> kDirections = {
     " m along the camera's x axis", " m along the camera's y axis", " m before the camera"};
+
+std::string nothingFoundMessage(const DetectionResult& result)
+{
+  return "nothing like the part was found among " + std::to_string(result.roi_points) +
+         " points: no part is there, or the region of interest, the part's mesh or its unit is "
+         "not right";
+}
+
+/// @param result  Has poses, none of them reliable.
+std::string noReliablePoseMessage(const DetectionResult& result)
+{
+  std::map<UnreliableReason, int> counts;
+  for (const DetectedPose& pose : result.poses)
+    ++counts[pose.reason];
+  std::vector<std::pair<int, UnreliableReason>> most;
+  for (const auto& [reason, count] : counts)
+    most.emplace_back(count, reason);
+  std::stable_sort(most.begin(), most.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ostringstream text;
+  text << "no reliable pose among " << result.poses.size() << " found";
+  const char* separator = " (";
+  for (const auto& [count, reason] : most)
+  {
+    text << separator << count << " " << toString(reason);
+    separator = ", ";
+  }
+  text << ")";
+  if (!result.regions.empty()) text << "; of the best one: " << result.regions.front().detail;
+  return text.str();
+}
 }  // namespace
 
 std::string emptyRegionMessage(const PointCloud& cloud_camera, const RegionOfInterest& roi)
@@ -56,26 +87,10 @@ std::string reliablePosesInWords(std::size_t count)
   return std::to_string(count) + (count == 1 ? " reliable pose" : " reliable poses");
 }
 
-std::string noReliablePoseMessage(const DetectionResult& result)
+std::string searchMessage(const DetectionResult& result)
 {
-  std::map<UnreliableReason, int> counts;
-  for (const DetectedPose& pose : result.poses)
-    ++counts[pose.reason];
-  std::vector<std::pair<int, UnreliableReason>> most;
-  for (const auto& [reason, count] : counts)
-    most.emplace_back(count, reason);
-  std::stable_sort(most.begin(), most.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::ostringstream text;
-  text << "no reliable pose among " << result.poses.size() << " found";
-  const char* separator = " (";
-  for (const auto& [count, reason] : most)
-  {
-    text << separator << count << " " << toString(reason);
-    separator = ", ";
-  }
-  text << ")";
-  if (!result.regions.empty()) text << "; of the best one: " << result.regions.front().detail;
-  return text.str();
+  const std::size_t reliable = reliablePoses(result);
+  if (reliable > 0) return reliablePosesInWords(reliable);
+  return result.poses.empty() ? nothingFoundMessage(result) : noReliablePoseMessage(result);
 }
 }  // namespace ppf_bin_picking

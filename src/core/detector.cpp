@@ -84,31 +84,19 @@ RangeImageOptions imageOptions(const DetectorConfig& config,
 void setStatus(DetectionResult& result, bool cut_short, double time_limit_s)
 {
   const std::size_t reliable = reliablePoses(result);
+  if (!cut_short)
+  {
+    result.status = reliable > 0 ? DetectionStatus::kOk : DetectionStatus::kNoPickablePose;
+    result.message = searchMessage(result);
+    return;
+  }
+  result.status = DetectionStatus::kTimeLimit;
   std::ostringstream text;
-  if (cut_short)
-  {
-    result.status = DetectionStatus::kTimeLimit;
-    if (time_limit_s > 0)
-      text << "the time limit of " << time_limit_s << " s ended the search with "
-           << reliablePosesInWords(reliable) << ": raise time_limit_s to see all";
-    else
-      text << "the search was stopped with " << reliablePosesInWords(reliable);
-  }
-  else if (reliable > 0)
-  {
-    result.status = DetectionStatus::kOk;
-    text << reliablePosesInWords(reliable);
-  }
+  if (time_limit_s > 0)
+    text << "the time limit of " << time_limit_s << " s ended the search with "
+         << reliablePosesInWords(reliable) << ": raise time_limit_s to see all";
   else
-  {
-    result.status = DetectionStatus::kNoPickablePose;
-    if (result.poses.empty())
-      text << "nothing like the part was found among " << result.roi_points
-           << " points: no part is there, or the region of interest, the part's mesh or its unit "
-           << "is not right";
-    else
-      text << noReliablePoseMessage(result);
-  }
+    text << "the search was stopped with " << reliablePosesInWords(reliable);
   result.message = text.str();
 }
 
@@ -127,7 +115,7 @@ std::string imageProblem(const RangeImageResult& prepared,
   else if (prepared.pixels_per_diameter < kMinPixelsPerDiameter)
     text << "the part measures only " << prepared.pixels_per_diameter
          << " pixels across in this cloud and needs " << kMinPixelsPerDiameter
-         << ": take a finer or nearer camera, or mend the unit if the cloud is not in metres";
+         << ": mend the unit if the cloud is not in metres, or take a finer or nearer camera";
   return text.str();
 }
 

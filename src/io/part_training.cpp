@@ -2,8 +2,26 @@
 
 #include "ppf_bin_picking/io/mesh_simplification.hpp"
 
+#include <sstream>
+
 namespace ppf_bin_picking
 {
+namespace
+{
+constexpr double kSmallestPart_m = 0.001;
+constexpr double kLargestPart_m = 5;
+
+/// Empty for a part of a size that lies in bins.
+std::string sizeWarning(double diameter_m)
+{
+  if (diameter_m >= kSmallestPart_m && diameter_m <= kLargestPart_m) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << "the part is " << diameter_m << " m across: check the unit in its part file (m for mm)";
+  return text.str();
+}
+}  // namespace
+
 TrainedPart trainPart(const PartDescription& part, const TriangleMesh& mesh,
                       const ModelParameters& parameters)
 {
@@ -14,7 +32,8 @@ TrainedPart trainPart(const PartDescription& part, const TriangleMesh& mesh,
     trained.notes.push_back("mesh simplified from " + std::to_string(mesh.triangles.size()) +
                             " to " + std::to_string(simple.triangles.size()) + " triangles");
   trained.notes.push_back(symmetries.summary);
-  if (!symmetries.warning.empty()) trained.warnings.push_back(symmetries.warning);
+  for (const std::string& warning : {symmetries.warning, sizeWarning(trained.model.diameter())})
+    if (!warning.empty()) trained.warnings.push_back(warning);
   return trained;
 }
 }  // namespace ppf_bin_picking

@@ -1,5 +1,7 @@
 #include "ppf_bin_picking/ros/pose_server.hpp"
 
+#include "ppf_bin_picking/core/detection_message.hpp"
+
 #include "ppf_bin_picking/ros/conversions.hpp"
 #include "ppf_bin_picking/ros/frame_lookup.hpp"
 #include "ppf_bin_picking/ros/request_failed.hpp"
@@ -21,6 +23,13 @@ ServerParams paramsOf(const ros::NodeHandle& private_nh)
   XmlRpc::XmlRpcValue tree;
   ros::param::get(private_nh.getNamespace(), tree);
   return readServerParams(tree, private_nh.getNamespace());
+}
+
+/// Says of an answer that it does not hold all reliable poses, where max_poses leaves some out.
+void appendLeftOut(std::string& message, const std::size_t reliable, const std::size_t answered)
+{
+  if (answered < reliable)
+    message += ", of which max_poses leaves the first " + std::to_string(answered);
 }
 
 void appendFailures(std::string& message, const std::vector<std::string>& failures)
@@ -160,9 +169,10 @@ void PoseServer::detectAndFill(const Request& request, Response& response)
   const std::size_t max_poses =
       request.max_poses > 0 ? request.max_poses : static_cast<std::size_t>(params_.max_poses);
   response.status = toStatus(view.result.status);
-  response.message = view.result.message;
-  appendFailures(response.message, parts_.failures());
   response.poses = pickablePoses(view, max_poses);
+  response.message = view.result.message;
+  appendLeftOut(response.message, reliablePoses(view.result), response.poses.size());
+  appendFailures(response.message, parts_.failures());
   if (request.include_mismatching) response.mismatching_regions = mismatchRegions(view);
   response.roi_points = static_cast<std::uint32_t>(view.result.roi_points);
   response.cloud_age = limitedDifference(ros::Time::now(), cloud->header.stamp);

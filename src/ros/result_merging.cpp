@@ -127,7 +127,7 @@ void resolveOverlaps(DetectionResult& all, const std::vector<const PpfModel*>& m
   }
 }
 
-/// All detections looked into the same region. Where none found anything, each says the same.
+/// All detections looked into the same region.
 void setStatus(DetectionResult& all)
 {
   if (all.status == DetectionStatus::kRoiEmpty) return;
@@ -139,10 +139,7 @@ void setStatus(DetectionResult& all)
     return;
   }
   all.status = reliable == 0 ? DetectionStatus::kNoPickablePose : DetectionStatus::kOk;
-  if (reliable > 0)
-    all.message = reliablePosesInWords(reliable);
-  else if (!all.poses.empty())
-    all.message = noReliablePoseMessage(all);
+  all.message = searchMessage(all);
 }
 }  // namespace
 

@@ -22,18 +22,25 @@ DetectionResult resultWith(const std::vector<UnreliableReason>& reasons)
   return result;
 }
 
-TEST(NoReliablePoseMessage, countsTheReasonsAndTellsOfTheBestPose)
+TEST(SearchMessage, countsTheReasonsAndTellsOfTheBestPoseIfNoneIsReliable)
 {
   DetectionResult result = resultWith({UnreliableReason::kRunnerUp, UnreliableReason::kSlippage,
                                        UnreliableReason::kLowScore, UnreliableReason::kSlippage});
-  EXPECT_EQ(noReliablePoseMessage(result),
+  EXPECT_EQ(searchMessage(result),
             "no reliable pose among 4 found (2 SLIPPAGE, 1 LOW_SCORE, 1 RUNNER_UP)");
   result.regions.resize(2);
   result.regions[0].detail = "it slides";
   result.regions[1].detail = "it does not";
-  EXPECT_EQ(noReliablePoseMessage(result),
+  EXPECT_EQ(searchMessage(result),
             "no reliable pose among 4 found (2 SLIPPAGE, 1 LOW_SCORE, 1 RUNNER_UP); of the best "
             "one: it slides");
+}
+
+TEST(SearchMessage, tellsAmongHowManyPointsNothingWasFound)
+{
+  DetectionResult result;
+  result.roi_points = 12;
+  EXPECT_EQ(searchMessage(result).find("nothing like the part was found among 12 points"), 0U);
 }
 
 TEST(ReliablePoses, areCountedAndPutInWords)
@@ -43,6 +50,7 @@ TEST(ReliablePoses, areCountedAndPutInWords)
   EXPECT_EQ(reliablePoses(result), 1U);
   EXPECT_EQ(reliablePosesInWords(1), "1 reliable pose");
   EXPECT_EQ(reliablePosesInWords(2), "2 reliable poses");
+  EXPECT_EQ(searchMessage(result), "1 reliable pose");
 }
 
 /// A region between two depths [m], in a frame turned upside down.

@@ -33,6 +33,18 @@ TEST(TrainPart, trainsFromASimplifiedMeshAndSaysSo)
                                   " to " + std::to_string(left) + " triangles");
 }
 
+TEST(TrainPart, warnsOfASizeThatNoPartInABinHas)
+{
+  for (const float scale : {1000.0F, 0.01F})
+  {
+    const TrainedPart trained =
+        trainPart({}, boxMesh({0.06F * scale, 0.04F * scale, 0.02F * scale}), kCoarse);
+    ASSERT_EQ(trained.warnings.size(), 1U) << scale;
+    EXPECT_NE(trained.warnings[0].find("check the unit"), std::string::npos);
+  }
+  EXPECT_TRUE(trainPart({}, boxMesh({0.06F, 0.04F, 0.02F}), kCoarse).warnings.empty());
+}
+
 TEST(TrainPart, refusesAStatedSymmetryThatTheMeshHasNot)
 {
   PartDescription part;

@@ -165,7 +165,8 @@ TEST_F(Merging, statusAndMessageAreThoseOfTheWhole)
 {
   EXPECT_EQ(merge({found(0, {}), found(1, {{0.0, 0.7}})}).message, "1 reliable pose");
   EXPECT_EQ(merge({found(0, {}), found(1, {})}).status, DetectionStatus::kNoPickablePose);
-  EXPECT_EQ(merge({found(0, {}), found(1, {})}).message, "of one detection");
+  EXPECT_NE(merge({found(0, {}), found(1, {})}).message.find("nothing like the part was found"),
+            std::string::npos);
   DetectionResult poor = found(0, {{0.0, 0.3}});
   poor.poses[0].reliable = false;
   const DetectionResult none = merge({found(1, {}), poor});

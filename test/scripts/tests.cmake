@@ -8,4 +8,5 @@ set(scripts_tests
     test_real_scan
     test_real_scan_regions
     test_reliability
-    test_reliability_scenes)
+    test_reliability_scenes
+    test_shiny)

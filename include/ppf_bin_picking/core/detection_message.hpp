@@ -22,8 +22,9 @@ std::size_t reliablePoses(const DetectionResult& result);
 /// `1 reliable pose`, `2 reliable poses`.
 std::string reliablePosesInWords(std::size_t count);
 
-/// One sentence on a result of which no pose is reliable: how many were turned down for which
-/// reason, the most frequent first, and what the region with the best score says.
-/// @param result  Has poses, sorted regions, and no reliable pose.
-std::string noReliablePoseMessage(const DetectionResult& result);
+/// One sentence on a search that was not cut short: how many poses are reliable. If none is, how
+/// many were turned down for which reason, the most frequent first, and what the region with the
+/// best score says; if none was found, what may be the cause.
+/// @param result  Its regions are sorted.
+std::string searchMessage(const DetectionResult& result);
 }  // namespace ppf_bin_picking
