@@ -7,10 +7,9 @@ import numpy as np
 import yaml
 
 from ablation_lib.copies import REAL_PART, CopiedBench, copy_files, reliable_poses, suspicious_poses
-from benchmark_lib.meshes import bounds_m
 from benchmark_lib.programs import BenchmarkError, Progress
 
-from .seen import VERDICTS, head_and_tail_m, verdict
+from .seen import VERDICTS, cloud_view, head_and_tail_m, picture_view, verdict
 
 VARIANT = "default"
 
@@ -35,9 +34,8 @@ class RealScan(CopiedBench):
                 raise BenchmarkError(f"{data / name} is missing: name the data folder with --data.")
         mesh = yaml.safe_load((data / "part.yaml").read_text())["mesh"]
         copy_files(data, self.part_folder(REAL_PART), ("part.yaml", mesh))
-        self.center_m = sum(bounds_m(data / "part.yaml")) / 2
         self.ends_m = head_and_tail_m(data / "part.yaml")
-        self.camera = yaml.safe_load((data / "camera.yaml").read_text())
+        self.picture = picture_view(yaml.safe_load((data / "camera.yaml").read_text()))
 
     def scene_arguments(self, scene):
         folder = self.scene_path(scene)
@@ -51,17 +49,12 @@ class RealScan(CopiedBench):
         poses = json.loads(self.result_path(variant, scene).read_text())["poses"]
         return [np.reshape(pose["pose"], (4, 4)) for pose in poses if pose["reliable"]]
 
-    def centers(self, scene):
-        """Of the part at each reliable pose; n x 3, in the cloud's frame [m]."""
-        centers = [pose[:3, :3] @ self.center_m + pose[:3, 3] for pose in self.poses(scene)]
-        return np.reshape(centers, (-1, 3))
-
     def verdicts(self, scene, turn, variant=VARIANT):
-        """How many of the reliable poses in a depth image are each of seen.VERDICTS. turn: of its camera from the scan's."""
+        """How many of the reliable poses are each of seen.VERDICTS. turn: of the scene's camera from the scan's."""
         back = np.eye(4)
         back[:3, :3] = np.transpose(turn)
-        poses = self.poses(scene, variant)
-        found = [verdict(back @ pose, self.ends_m, self.camera) for pose in poses]
+        view = cloud_view() if scene.loose else self.picture
+        found = [verdict(back @ pose, self.ends_m, view) for pose in self.poses(scene, variant)]
         return [found.count(name) for name in VERDICTS]
 
     def draw(self, scene, path):
@@ -104,8 +97,9 @@ def in_images(bench, draws):
 
 
 def in_clouds(bench, draws):
-    """Rows: variant, then within the bin reliable and suspicious poses, then in the whole cloud these and those outside the
-    bin. And the first variant's scenes, within the bin and whole. draws: as cloud_draws()."""
+    """Rows: variant, then within the bin and in the whole cloud: reliable poses, how many of them are each of seen.VERDICTS,
+    suspicious ones of them. And the first variant's scenes, within the bin and whole. draws: as cloud_draws().
+    """
     rows, first = [], None
     progress = Progress("loose clouds", len(draws))
     for k, (name, scan) in enumerate(draws.items()):
@@ -114,10 +108,9 @@ def in_clouds(bench, draws):
             scene = RealScene(f"cloud-{k}-{place}", loose=True, whole_cloud=place == "everywhere")
             scan.write(bench.scene_path(scene))
             made |= bench.detect(VARIANT, scene)
-            row.append(reliable_poses(bench, VARIANT, scene))
-            row.append(suspicious_poses(bench, VARIANT, scene))
+            verdicts = bench.verdicts(scene, scan.turn)
+            row += [sum(verdicts), *verdicts, suspicious_poses(bench, VARIANT, scene)]
             scenes.append(scene)
-        row.append(int((~scan.inside(bench.centers(scenes[1]))).sum()))
         rows.append(row)
         first = first or scenes
         progress.step(name, made)

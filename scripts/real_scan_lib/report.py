@@ -6,7 +6,7 @@ from ablation_lib.copies import NOISE_M
 from benchmark_lib.report import number, table
 
 from .scans import FLOOR_M, INSIDE, LEFT_OUT
-from .seen import NEAR_M, PINS, VERDICTS
+from .seen import CLOUD_PINS, NEAR_M, PICTURE_PINS, VERDICTS
 
 IMAGE_PICTURE = "images/real_scan_image.png"
 CLOUD_PICTURE = "images/real_scan_cloud.png"
@@ -23,14 +23,15 @@ def write_page(facts, image_rows, cloud_rows):
     """The whole page."""
     low, high = (", ".join(f"{value:g}" for value in corner) for corner in INSIDE)
     image_heading = ["variant", "pins", *VERDICTS, "suspicious", "in the other bins"]
-    cloud_heading = ["variant", "in the bin", "suspicious", "whole cloud", "suspicious", "outside"]
+    cloud_heading = ["variant", "in the bin", *VERDICTS, "suspicious"]
+    cloud_heading += ["whole cloud", *VERDICTS, "suspicious"]
     return f"""# Pins in a real scan
 
 Reliable poses of a shiny pin in a depth image of four bins, of which one holds about 36 pins and the others none, and in a loose cloud of another bin
-with about 20, a point each millimetre on pins six thick. What is told is how many poses pass, how many of them `check_poses` finds suspicious, and
-how many lie where no pin can. Beside the image there is a colour picture, in which a person sees {len(PINS)} pins and which end is the head; a pose is right if its ends
-lie within {NEAR_M * 1000:g} mm of a pin's there, across the line of sight, end for end if they do the other way round, elsewhere if neither, also on a pin too hidden to be listed
-(`scripts/real_scan_lib/seen.py`). Beside the cloud there is none: `check_poses` does not tell head from tail where a pin is a few points wide, so look at the pictures. One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
+with {len(CLOUD_PINS)}, a point each millimetre on pins six thick. What is told is how many poses pass, how many of them are right, and how many `check_poses` finds suspicious, which
+does not tell head from tail where a pin is a few points wide. Beside the image there is a colour picture, in which a person sees {len(PICTURE_PINS)} pins and which end is the head, and the points of the
+cloud have colours that show as much. A pose is right if its ends lie within {NEAR_M * 1000:g} mm of a pin's there, across the line of sight, end for end if they do the other way round, elsewhere if neither, also on a
+pin too hidden to be listed (`scripts/real_scan_lib/seen.py`). One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
 its axis, noise of {NOISE_M * 1000:g} mm on the depth, {LEFT_OUT * 100:g} % of the points left out, another order,
 and a region that ends {FLOOR_M * 1000:g} mm nearer or farther, as whoever measures a bin may give it. Written by
 
@@ -48,7 +49,7 @@ As it is:
 ## Loose cloud
 
 In the bin: the region of interest is `{{min: [{low}], max: [{high}]}}`, the bin's inside from just above its floor to well under its rim. Whole
-cloud: without a region; *outside* are the poses whose middle does not lie in that box, on the rim or a wall.
+cloud: without a region; poses elsewhere lie on the rim or a wall.
 
 {table(cloud_heading, with_mean(cloud_rows))}
 As it is, in the bin:

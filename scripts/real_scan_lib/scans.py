@@ -87,12 +87,6 @@ class CloudScan:
         kept = np.random.default_rng(seed).random(len(self.points)) >= LEFT_OUT
         return replace(self, points=self.points[kept])
 
-    def inside(self, places):
-        """Which of the places (n x 3, in the cloud's frame) lie in the bin."""
-        low, high = INSIDE
-        back = np.asarray(places).reshape(-1, 3) @ self.turn  # by the inverse
-        return ((back >= low) & (back <= high)).all(axis=1)
-
     def write(self, folder):
         """A scene's folder, with the inside of the bin as region. The cloud has the unit of the scan's file, so that what is not
         changed has its very numbers."""

@@ -12,6 +12,8 @@ from PIL import Image
 PACKAGE = Path(__file__).resolve().parents[2]
 DATA = Path(os.environ.get("PPF_BIN_PICKING_DATA", PACKAGE / "../shared/data"))
 PICTURE = DATA / "real/pins/preview.jpg"
+CLOUD = DATA / "real/pins/one_bin.pcd"
+AT_THE_WALL = 7  # of the cloud's pins: its tail is not to be seen
 sys.path[:0] = [str(PACKAGE / "scripts"), str(PACKAGE / "test/scripts")]
 
 from real_scan_lib import seen  # after the path that it is found on
@@ -55,13 +57,13 @@ class VerdictTest(unittest.TestCase):
         self.pose = np.eye(4)
         self.pose[:3, :3] = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]
         self.pose[:3, 3] = [-0.02, 0.03, 0.49]
-        pixels, self.width_m = seen.in_picture(
-            self.ENDS @ self.pose[:3, :3].T + self.pose[:3, 3], CAMERA
+        pixels, self.width_m = seen.picture_view(CAMERA).places(
+            self.ENDS @ self.pose[:3, :3].T + self.pose[:3, 3]
         )
         self.pins = [pixels + 70, pixels, pixels - [100, 0]]
 
     def verdict(self, pose):
-        return seen.verdict(pose, self.ENDS, CAMERA, self.pins)
+        return seen.verdict(pose, self.ENDS, seen.picture_view(CAMERA, self.pins))
 
     def moved(self, offset_m):
         pose = self.pose.copy()
@@ -72,7 +74,7 @@ class VerdictTest(unittest.TestCase):
         # the corner between the image's first four pixels is the middle of the picture's first pixel
         z = 0.5
         point = np.array([[(0.5 - CAMERA["cx"]) / 1800 * z, (0.5 - CAMERA["cy"]) / 1790 * z, z]])
-        pixels, width_m = seen.in_picture(point, CAMERA)
+        pixels, width_m = seen.picture_view(CAMERA).places(point)
         np.testing.assert_allclose(pixels, [[0.5, 0.5]], atol=1e-9)
         np.testing.assert_allclose(width_m, [2 * z / 1800])
 
@@ -109,21 +111,46 @@ class VerdictTest(unittest.TestCase):
             places = (head + np.outer(shares, tail - head)).astype(int)
             return np.mean([blue[y - 1 : y + 2, x - 1 : x + 2].max() for x, y in places])
 
-        for head, tail in np.array(seen.PINS):
+        for head, tail in np.array(seen.PICTURE_PINS):
             with self.subTest(head=head):
                 self.assertGreater(
                     brightness(head, tail, np.linspace(0.05, 0.3, 12)),
                     brightness(head, tail, np.linspace(0.75, 0.97, 12)),
                 )
 
+    @unittest.skipUnless(CLOUD.is_file(), f"{CLOUD} is missing: set PPF_BIN_PICKING_DATA")
+    def test_tails_are_browner_than_heads_in_the_cloud(self):
+        rows = np.frombuffer(CLOUD.read_bytes().split(b"DATA binary\n")[1], "<f4").reshape(-1, 7)
+        directions = seen.cloud_view().places(rows[:, :3])[0]
+        blue = (rows[:, 6].copy().view(np.uint32) & 255).astype(float)
+
+        def brightness(head, tail, shares):
+            places = head + np.outer(shares, tail - head)
+            apart = np.linalg.norm(places[:, None] - directions, axis=2)
+            return np.mean([blue[near < 2.5].max() for near in apart])
+
+        for head, tail in np.delete(seen.CLOUD_PINS, AT_THE_WALL, axis=0):
+            with self.subTest(head=head):
+                self.assertGreater(
+                    brightness(head, tail, np.linspace(0.05, 0.3, 12)),
+                    brightness(head, tail, np.linspace(0.8, 0.97, 12)),
+                )
+
+    def test_a_place_in_the_cloud_is_a_thousandth_of_its_distance(self):
+        places, width_m = seen.cloud_view().places(np.array([[0.01, -0.02, 0.5]]))
+        np.testing.assert_allclose(places, [[20, -40]])
+        np.testing.assert_allclose(width_m, [0.0005])
+
     def test_the_pins_are_equally_long_and_none_stands_there_twice(self):
-        head, tail = np.array(seen.PINS).swapaxes(0, 1)
-        long = np.linalg.norm(head - tail, axis=1)
-        self.assertGreater(long.min(), 0.9 * np.median(long))
-        self.assertLess(long.max(), 1.1 * np.median(long))
-        middles = (head + tail) / 2
-        apart = np.linalg.norm(middles[:, None] - middles, axis=2) + 1000 * np.eye(len(middles))
-        self.assertGreater(apart.min(), 5)  # none twice
+        for pins in (seen.PICTURE_PINS, seen.CLOUD_PINS):
+            head, tail = np.array(pins).swapaxes(0, 1)
+            long = np.linalg.norm(head - tail, axis=1)
+            self.assertGreater(long.min(), 0.9 * np.median(long))
+            self.assertLess(long.max(), 1.1 * np.median(long))
+            middles = (head + tail) / 2
+            apart = np.linalg.norm(middles[:, None] - middles, axis=2)
+            apart += 1000 * np.eye(len(middles))
+            self.assertGreater(apart.min(), 5)  # none twice
 
 
 if __name__ == "__main__":

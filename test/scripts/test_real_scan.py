@@ -18,6 +18,7 @@ from ablation_lib.copies import NOISE_M  # after the path that it is found on
 from benchmark_lib.clouds import read_cloud, write_cloud
 from benchmark_lib.programs import BenchmarkError
 from real_scan_lib import measurement, report, scans
+from real_scan_lib.seen import cloud_view
 from support import write_part
 
 
@@ -90,12 +91,6 @@ class CloudScanTest(unittest.TestCase):
         points = np.random.default_rng(2).uniform(low - size, high + size, (2000, 3))
         self.scan = scans.CloudScan(points, np.eye(3))
 
-    def test_what_lies_in_the_bin_turns_with_it(self):
-        inside = self.scan.inside(self.scan.points)
-        self.assertGreater(inside.sum(), 30)
-        turned = self.scan.turned(30).turned(70)
-        np.testing.assert_array_equal(turned.inside(turned.points), inside)
-
     def test_the_region_is_written_in_the_frame_of_the_turned_cloud(self):
         turned = self.scan.turned(40)
         with tempfile.TemporaryDirectory() as folder:
@@ -104,7 +99,10 @@ class CloudScanTest(unittest.TestCase):
         pose = np.reshape(region["pose"], (4, 4))  # T_cloud_box
         in_box = (turned.points - pose[:3, 3]) @ pose[:3, :3]
         found = ((in_box >= region["min"]) & (in_box <= region["max"])).all(axis=1)
-        np.testing.assert_array_equal(found, self.scan.inside(self.scan.points))
+        low, high = scans.INSIDE
+        expected = ((self.scan.points >= low) & (self.scan.points <= high)).all(axis=1)
+        self.assertGreater(expected.sum(), 30)
+        np.testing.assert_array_equal(found, expected)
 
     def test_another_order_has_the_same_points(self):
         other = self.scan.shuffled(3).points
@@ -115,9 +113,6 @@ class CloudScanTest(unittest.TestCase):
         kept = {tuple(point) for point in self.scan.thinned(1).points}
         self.assertTrue(kept < {tuple(point) for point in self.scan.points})
         self.assertAlmostEqual(len(kept) / 2000, 1 - scans.LEFT_OUT, delta=0.015)
-
-    def test_no_pose_is_none_outside(self):
-        self.assertEqual((~self.scan.inside(np.zeros((0, 3)))).sum(), 0)
 
 
 class CloudFileTest(unittest.TestCase):
@@ -198,15 +193,6 @@ class MeasurementTest(unittest.TestCase):
     def scene(self, name, loose=True, whole_cloud=True):
         return measurement.RealScene(name, loose, whole_cloud)
 
-    def test_centers_are_those_of_the_mesh_at_reliable_poses(self):
-        scene = self.scene("soon")
-        self.bench.detect("default", scene)
-        middle = np.array([0.01, -0.005, 0.002])
-        turned = np.array([-middle[1], middle[0], middle[2]])
-        np.testing.assert_allclose(self.bench.centers(scene), 2 * [turned + self.SHIFT])
-        self.bench.detect("default", self.scene("empty"))
-        self.assertEqual(self.bench.centers(self.scene("empty")).shape, (0, 3))
-
     def test_the_arguments_name_cloud_or_image_and_the_region_unless_all_is_searched(self):
         for loose, whole_cloud in itertools.product((False, True), repeat=2):
             scene = self.scene("a", loose, whole_cloud)
@@ -223,19 +209,20 @@ class MeasurementTest(unittest.TestCase):
             (self.data / name).write_text(content)
 
     def test_verdicts_are_those_of_the_camera_that_is_not_turned(self):
-        scene = self.scene("soon")
-        self.bench.detect("default", scene)
         asked = []
 
-        def verdict(pose, ends, camera):
-            asked.append((pose[:3, 3], ends, camera))
+        def verdict(pose, ends, view):
+            asked.append((pose[:3, 3], ends, view.pins))
             return "end for end"
 
-        with mock.patch.object(measurement, "verdict", verdict):
-            self.assertEqual(self.bench.verdicts(scene, scans.QUARTER_TURN), [0, 2, 0])
-        np.testing.assert_allclose(asked[0][0], [-0.02, 0.01, 0.5])
-        np.testing.assert_allclose(asked[0][1], self.bench.ends_m)
-        self.assertEqual(asked[0][2]["fx"], 1)
+        for loose, pins in ((False, measurement.picture_view({}).pins), (True, cloud_view().pins)):
+            scene = self.scene("soon", loose)
+            self.bench.detect("default", scene)
+            with mock.patch.object(measurement, "verdict", verdict):
+                self.assertEqual(self.bench.verdicts(scene, scans.QUARTER_TURN), [0, 2, 0])
+            np.testing.assert_allclose(asked[-1][0], [-0.02, 0.01, 0.5])
+            np.testing.assert_allclose(asked[-1][1], self.bench.ends_m)
+            self.assertEqual(asked[-1][2], pins)
 
     def test_images_count_the_parts_bin_and_the_others(self):
         levels = np.full((4, 5), 5000, np.uint16)
@@ -258,7 +245,8 @@ class MeasurementTest(unittest.TestCase):
     def test_clouds_are_searched_in_the_bin_and_everywhere(self):
         scan = scans.CloudScan(np.ones((3, 3)), np.eye(3))
         rows, (in_bin, everywhere) = measurement.in_clouds(self.bench, {"one": scan})
-        self.assertEqual(rows, [["one", 1, 7, 1, 7, 1]])  # "cloud" has one o; no pose is in the bin
+        # "cloud" has one o; its pose is on no pin
+        self.assertEqual(rows, [["one", 1, 0, 0, 1, 7, 1, 0, 0, 1, 7]])
         self.assertFalse(in_bin.whole_cloud)
         self.assertTrue(everywhere.whole_cloud)
 
