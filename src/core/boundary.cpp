@@ -84,6 +84,41 @@ bool frameAt(const RangeImage& image, int u, int v, const Eigen::Vector2f& away,
     boundary.outward = -boundary.outward;
   return boundary.point.allFinite() && boundary.outward.allFinite();
 }
+
+/// Boundary points of one cell whose frames point alike.
+class AlikePoints
+{
+public:
+  explicit AlikePoints(const BoundaryPoint& first) : first_(first), sum_(first) {}
+
+  bool takes(const BoundaryPoint& boundary) const
+  {
+    return first_.normal.dot(boundary.normal) > kSameDirection &&
+           first_.outward.dot(boundary.outward) > kSameDirection;
+  }
+
+  void add(const BoundaryPoint& boundary)
+  {
+    sum_.point += boundary.point;
+    sum_.normal += boundary.normal;
+    sum_.outward += boundary.outward;
+    count_ += 1;
+  }
+
+  BoundaryPoint mean() const
+  {
+    BoundaryPoint mean;
+    mean.point = sum_.point / count_;
+    mean.normal = sum_.normal.normalized();
+    mean.outward = (sum_.outward - mean.normal * mean.normal.dot(sum_.outward)).normalized();
+    return mean;
+  }
+
+private:
+  BoundaryPoint first_;
+  BoundaryPoint sum_;
+  float count_ = 1;
+};
 }  // namespace
 
 std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m, int threads)
@@ -116,13 +151,7 @@ std::vector<BoundaryPoint> boundaryOf(const RangeImage& image, float jump_m, int
 
 std::vector<BoundaryPoint> thinOutBoundary(const std::vector<BoundaryPoint>& points, float cell_m)
 {
-  struct Group
-  {
-    BoundaryPoint first;
-    BoundaryPoint sum;
-    float count = 0;
-  };
-  std::vector<Group> groups;
+  std::vector<AlikePoints> groups;
   std::map<std::array<std::int32_t, 3>, std::vector<std::size_t>> cells;
   for (const BoundaryPoint& boundary : points)
   {
@@ -130,34 +159,20 @@ std::vector<BoundaryPoint> thinOutBoundary(const std::vector<BoundaryPoint>& poi
     std::vector<std::size_t>& here =
         cells[{static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
                static_cast<std::int32_t>(cell.z())}];
-    const auto alike = [&](std::size_t g)
+    const auto known =
+        std::find_if(here.begin(), here.end(),
+                     [&](const std::size_t group) { return groups[group].takes(boundary); });
+    if (known != here.end())
     {
-      return groups[g].first.normal.dot(boundary.normal) > kSameDirection &&
-             groups[g].first.outward.dot(boundary.outward) > kSameDirection;
-    };
-    const auto known = std::find_if(here.begin(), here.end(), alike);
-    if (known == here.end())
-    {
-      here.push_back(groups.size());
-      groups.push_back({boundary, boundary, 1});
+      groups[*known].add(boundary);
       continue;
     }
-    Group& group = groups[*known];
-    group.sum.point += boundary.point;
-    group.sum.normal += boundary.normal;
-    group.sum.outward += boundary.outward;
-    group.count += 1;
+    here.push_back(groups.size());
+    groups.emplace_back(boundary);
   }
   std::vector<BoundaryPoint> thin;
-  for (const Group& group : groups)
-  {
-    BoundaryPoint mean;
-    mean.point = group.sum.point / group.count;
-    mean.normal = group.sum.normal.normalized();
-    mean.outward =
-        (group.sum.outward - mean.normal * mean.normal.dot(group.sum.outward)).normalized();
-    thin.push_back(mean);
-  }
+  for (const AlikePoints& group : groups)
+    thin.push_back(group.mean());
   return thin;
 }
 }  // namespace ppf_bin_picking

@@ -164,31 +164,20 @@ std::vector<PoseVerdict> judge(const std::vector<const PpfModel*>& models,
   return verdictsOf(models, config, ambiguities, shares, poses);
 }
 
-/// Lets the reliable poses settle. The others stay as their regions show them.
+/// Lets the reliable poses settle, as the others stay where their regions show them, and writes
+/// each pose's covariance.
 void settle(const RangeImage& image, const std::vector<const PpfModel*>& models,
             const DetectorConfig& config, std::vector<DetectedPose>& poses)
 {
-  parallelFor(config.threads, poses.size(),
-              [&](std::size_t i)
-              {
-                DetectedPose& pose = poses[i];
-                if (!pose.reliable) return;
-                const PpfModel& model = *models[pose.model];
-                setPose(settlePose(image, model, pose.T_cloud_model.cast<float>(), config), model,
-                        pose);
-              });
-}
-
-/// Writes each pose's covariance.
-void addCovariances(const RangeImage& image, const std::vector<const PpfModel*>& models,
-                    const DetectorConfig& config, std::vector<DetectedPose>& poses)
-{
-  parallelFor(config.threads, poses.size(),
-              [&](std::size_t i)
-              {
-                poses[i].covariance =
-                    poseCovariance(image, *models[poses[i].model], poses[i].T_cloud_model, config);
-              });
+  const auto settle_one = [&](std::size_t i)
+  {
+    DetectedPose& pose = poses[i];
+    const PpfModel& model = *models[pose.model];
+    if (pose.reliable)
+      setPose(settlePose(image, model, pose.T_cloud_model.cast<float>(), config), model, pose);
+    pose.covariance = poseCovariance(image, model, pose.T_cloud_model, config);
+  };
+  parallelFor(config.threads, poses.size(), settle_one);
 }
 
 /// What each standing pose has of its cluster's hypotheses.
@@ -296,7 +285,6 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
       result.regions.push_back(regionOf(pose, *models[pose.model], verdicts[i], shares[i]));
   }
   settle(image, models, config, result.poses);
-  addCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, selected, result);
   sortResult(result);
 }

@@ -9,6 +9,7 @@ set(core_tests
     test_detection_message
     test_detector
     test_detector_config
+    test_detector_explanation
     test_detector_refusals
     test_detector_usual
     test_evidence_climb
