@@ -151,6 +151,7 @@ def work(options):
         "seeds": len(options.seeds),
         "fill": FILL,
         "own_seed": OWN_SEED,
+        "left_out": [row.name for row in ALL_ROWS if row not in rows],
     }
     page.write_text(write_page(facts, rows, figures))
     print(f"Wrote {page}")

@@ -80,6 +80,14 @@ def decisions(rows):
     )
 
 
+def left_out(names):
+    """Which rows the page does not have."""
+    if not names:
+        return ""
+    listed = ", ".join(f"`{name}`" for name in names)
+    return f"\nNot measured this time, see `scripts/ablation_lib` and older versions of this page: {listed}.\n"
+
+
 def introduction(facts):
     """What was done, and how to do it again."""
     return f"""# What each step brings
@@ -105,7 +113,7 @@ def write_page(facts, rows, figures):
     bins = figures[rows[0].name]["bins"]
     return "\n".join(
         [
-            introduction(facts),
+            introduction(facts) + left_out(facts["left_out"]),
             step_table(rows, figures),
             "## Settings, steps and decisions\n\n" + decisions(rows),
             "## The evaluation scenes, seed by seed\n\n" + seed_table(bins),

@@ -13,6 +13,7 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 from ablation_lib import __main__ as ablation_main
 from ablation_lib.__main__ import Ablation
 from ablation_lib.edited_core import Edit, edited
+from ablation_lib.report import write_page
 from ablation_lib.rows import MODEL_SETTINGS, ROWS
 from ablation_lib.steps import STEPS
 from benchmark_lib import detection, programs
@@ -88,6 +89,25 @@ class RealFigures(unittest.TestCase):
         with mock.patch.object(ablation_main, "reliable_poses", lambda *_: 9):
             figures = ablation.real_figures("row")
         self.assertEqual(figures, {"pins": [6, 4], "not_right": [3, 0], "others": 9})
+
+
+class Page(unittest.TestCase):
+    FACTS = {"command": "c", "folder": "f", "commit": "0", "machine": "m", "seeds": 1, "fill": 16}
+
+    def page(self, left_out):
+        summary = {"AP": 0.5, "precision": 1.0, "recall": 0.5, "first": 1.0, "lost": 0.0}
+        summary = {"ALL": {**summary, "t_mm": 0.1, "r_deg": 0.1}}
+        figure = {"bins": [summary], "own": summary, "pins": [3, 5], "not_right": [0, 1]}
+        figures = {ROWS[0].name: {**figure, "others": 7, "time": 1.0}}
+        return write_page({**self.FACTS, "own_seed": 2, "left_out": left_out}, ROWS[:1], figures)
+
+    def test_has_a_line_for_each_row(self):
+        line = "| `default` | 0.500 | 1.000 | 0.500 | 0.500 | 1.000 | 0.500 | 3 | 4.0 | 0.5 | 7 | 1.00 |"
+        self.assertIn(line, self.page([]))
+
+    def test_names_the_rows_that_were_not_measured(self):
+        self.assertNotIn("Not measured", self.page([]))
+        self.assertRegex(self.page(["greedy", "no-icp"]), "Not measured.*: `greedy`, `no-icp`.")
 
 
 if __name__ == "__main__":
