@@ -166,10 +166,10 @@ std::vector<PoseVerdict> judge(const std::vector<const PpfModel*>& models,
 
 /// Lets the reliable poses settle, as the others stay where their regions show them, and writes
 /// each pose's covariance.
-void settle(const RangeImage& image, const std::vector<const PpfModel*>& models,
-            const DetectorConfig& config, std::vector<DetectedPose>& poses)
+void settleAndAddCovariances(const RangeImage& image, const std::vector<const PpfModel*>& models,
+                             const DetectorConfig& config, std::vector<DetectedPose>& poses)
 {
-  const auto settle_one = [&](std::size_t i)
+  const auto finish = [&](std::size_t i)
   {
     DetectedPose& pose = poses[i];
     const PpfModel& model = *models[pose.model];
@@ -177,7 +177,7 @@ void settle(const RangeImage& image, const std::vector<const PpfModel*>& models,
       setPose(settlePose(image, model, pose.T_cloud_model.cast<float>(), config), model, pose);
     pose.covariance = poseCovariance(image, model, pose.T_cloud_model, config);
   };
-  parallelFor(config.threads, poses.size(), settle_one);
+  parallelFor(config.threads, poses.size(), finish);
 }
 
 /// What each standing pose has of its cluster's hypotheses.
@@ -284,7 +284,7 @@ void reportPoses(const std::vector<const PpfModel*>& models, const DetectorConfi
     if (!pose.reliable)
       result.regions.push_back(regionOf(pose, *models[pose.model], verdicts[i], shares[i]));
   }
-  settle(image, models, config, result.poses);
+  settleAndAddCovariances(image, models, config, result.poses);
   if (config.mismatch_test) addDesertedClusters(models, config, candidates, selected, result);
   sortResult(result);
 }

@@ -29,7 +29,7 @@ ServerParams paramsOf(const ros::NodeHandle& private_nh)
 void appendLeftOut(std::string& message, const std::size_t reliable, const std::size_t answered)
 {
   if (answered < reliable)
-    message += " (max_poses leaves the first " + std::to_string(answered) + ")";
+    message += " (max_poses: only the first " + std::to_string(answered) + " returned)";
 }
 
 void appendFailures(std::string& message, const std::vector<std::string>& failures)

@@ -62,6 +62,7 @@ DetectionResult detectGroup(const ppf_bin_picking::PointCloud& cloud,
 
 void checkRequest(const Request& request)
 {
+  constexpr double kLeastTimeout_s = 0.001;  // as of ~timeout_s
   const auto refuse = [](const std::string& sentence)
   { throw RequestFailed(Response::BAD_REQUEST, sentence); };
   if (request.acquisition != Request::LATEST && request.acquisition != Request::NEXT)
@@ -69,6 +70,10 @@ void checkRequest(const Request& request)
            ": give LATEST (0) or NEXT (1)");
   if (request.timeout < ros::Duration(0))
     refuse("timeout is negative: give seconds, or 0 for ~timeout_s");
+  if (!request.timeout.isZero() && request.timeout < ros::Duration(kLeastTimeout_s))
+    refuse(
+        "timeout is less than a millisecond: give seconds (rosservice call: {secs: 1}), or 0 for "
+        "~timeout_s");
   if (request.max_age < ros::Duration(0))
     refuse("max_age is negative: give seconds, or 0 for any age");
 }

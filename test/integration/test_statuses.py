@@ -108,7 +108,7 @@ class StatusesTest(unittest.TestCase):
     def test_ok_gives_no_more_poses_than_asked_for(self):
         answer = self.answer(self.good, model_id="", max_poses=1)
         self.expect(answer, Response.OK)
-        self.assertEqual(answer.message, "2 reliable poses (max_poses leaves the first 1)")
+        self.assertEqual(answer.message, "2 reliable poses (max_poses: only the first 1 returned)")
         self.assertEqual(len(answer.poses), 1)
 
     def test_ok_on_a_large_cloud(self):

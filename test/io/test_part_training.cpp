@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace ppf_bin_picking
 {
@@ -33,16 +34,36 @@ TEST(TrainPart, trainsFromASimplifiedMeshAndSaysSo)
                                   " to " + std::to_string(left) + " triangles");
 }
 
+TriangleMesh scaledBox(float scale)
+{
+  return boxMesh({0.06F * scale, 0.04F * scale, 0.02F * scale});
+}
+
 TEST(TrainPart, warnsOfASizeThatNoPartInABinHas)
 {
-  for (const float scale : {1000.0F, 0.01F})
+  PartDescription part;
+  part.source = "part.yaml";
+  const auto warnings = [&](float scale)
+  { return trainPart(part, scaledBox(scale), kCoarse).warnings; };
+  EXPECT_EQ(warnings(1000), std::vector<std::string>{
+                                "part.yaml: the part is 74.8 m across: check its unit (m for mm)"});
+  EXPECT_EQ(warnings(0.01F),
+            std::vector<std::string>{
+                "part.yaml: the part is 0.000748 m across: check its unit (mm for m)"});
+  EXPECT_TRUE(warnings(1).empty());
+}
+
+TEST(TrainPart, refusesAMeshInMetresThatIsTakenForOneInMillimetres)
+{
+  try
   {
-    const TrainedPart trained =
-        trainPart({}, boxMesh({0.06F * scale, 0.04F * scale, 0.02F * scale}), kCoarse);
-    ASSERT_EQ(trained.warnings.size(), 1U) << scale;
-    EXPECT_NE(trained.warnings[0].find("check the unit"), std::string::npos);
+    trainPart({}, scaledBox(0.001F), kCoarse);
+    FAIL();
   }
-  EXPECT_TRUE(trainPart({}, boxMesh({0.06F, 0.04F, 0.02F}), kCoarse).warnings.empty());
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("check its unit (mm for m)"), std::string::npos);
+  }
 }
 
 TEST(TrainPart, refusesAStatedSymmetryThatTheMeshHasNot)

@@ -35,6 +35,10 @@ TEST(CheckRequest, refusesWhatIsOutOfRange)
   request = {};
   request.timeout = ros::Duration(-0.1);
   EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);
+  request.timeout = ros::Duration(0, 1);  // what rosservice makes of 1
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);
+  request.timeout = ros::Duration(0.001);
+  EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::OK);
   request = {};
   request.max_age = ros::Duration(-1.0);
   EXPECT_EQ(statusOf([&] { checkRequest(request); }), +Response::BAD_REQUEST);

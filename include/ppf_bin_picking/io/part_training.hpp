@@ -24,7 +24,9 @@ struct TrainedPart
 /// Trains the model of a part from its simplified mesh, see simplifiedMesh(). Its symmetries are
 /// those of that mesh, too.
 /// @param mesh  Of the part, as loaded [m].
-/// @throw InputError if the mesh has no surface, or not a symmetry that the part file states.
+/// @throw InputError if the mesh has no surface, is less than half a millimetre across, or has not
+/// a
+///        symmetry that the part file states.
 /// @throw std::invalid_argument if the parameters do not fit the mesh.
 TrainedPart trainPart(const PartDescription& part, const TriangleMesh& mesh,
                       const ModelParameters& parameters);
