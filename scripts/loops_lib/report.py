@@ -14,7 +14,7 @@ The demo's robot picks the best pose, again and again, until the bin is empty or
 which keeps what is done in `{folder}` and goes on where it was stopped. {count} parts in the bin, sensor {preset}, seeds {seeds}:
 `roslaunch ppf_bin_picking demo.launch part:=PART count:={count} seed:=SEED preset:={preset}`. Commit {commit}; {machine}.
 
-{wrong} of {picks} picks were wrong, {share:.2%}; with a confidence of 95 % less than {bound:.2%} are (one-sided, Clopper and Pearson).
+Wrong picks: {wrong} of {picks}, {share:.2%}; with a confidence of 95 % less than {bound:.2%} (one-sided, Clopper and Pearson).
 Of the {parts} parts {left:.1%} were left in the bin. A blocked pick had the right pose, of a part that another one lay on; it counts as no
 wrong one, and the part is left.
 

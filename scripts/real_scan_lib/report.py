@@ -28,7 +28,7 @@ def write_page(facts, image_rows, cloud_rows):
     return f"""# Pins in a real scan
 
 Reliable poses of a shiny pin in a depth image of four bins, of which one holds about 36 pins and the others none, and in a loose cloud of another bin
-with {len(CLOUD_PINS)}, a point each millimetre on pins six thick. What is told is how many poses pass, how many of them are right, and how many `check_poses` finds suspicious, which
+with about 20, of which {len(CLOUD_PINS)} can be told, a point each millimetre on pins six thick. What is told is how many poses pass, how many of them are right, and how many `check_poses` finds suspicious, which
 does not tell head from tail where a pin is a few points wide. Beside the image there is a colour picture, in which a person sees {len(PICTURE_PINS)} pins and which end is the head, and the points of the
 cloud have colours that show as much. A pose is right if its ends lie within {NEAR_M * 1000:g} mm of a pin's there, across the line of sight, end for end if they do the other way round, elsewhere if neither, also on a
 pin too hidden to be listed (`scripts/real_scan_lib/seen.py`). One scan is one draw, so the same is looked for in variants of it that a sensor might have given as well: the camera turned about
