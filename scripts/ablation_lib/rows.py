@@ -53,7 +53,7 @@ ROWS = (
     Row(
         "no-slide",
         {"max_slide_share": 1.0},
-        "kept: a wrong pose more on other parts, and pins on longer cylinders, which these scenes hardly have",
+        "kept for pins on longer cylinders, which these scenes hardly have; here the reliability catches all that it would",
     ),
     Row(
         "slide-of-all",
